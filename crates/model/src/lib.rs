@@ -1,0 +1,102 @@
+//! The inert description of a compliant mechanism: what it is made of, not how it is solved.
+//!
+//! Every number is in SI units and radians. Things refer to each other by typed ids, which are positions
+//! in the model's lists. Nothing here computes; the laws live in `flexura-mechanics`.
+//!
+//! Absent on purpose: solver settings, results, text positions, anything that depends on a file format.
+
+mod beam;
+mod body;
+mod joint;
+mod load;
+mod material;
+mod output;
+mod profile;
+
+pub use beam::{Beam, BeamTheory, Curve, Distributed, End, LoadAxes, SectionFrame};
+pub use body::{Body, BodyRef, Frame};
+pub use joint::{CoordinateLaw, Drive, Joint, JointKind, JointLaw, Limits};
+pub use load::{Attachment, BeamPoint, Load, LoadFrame, LoadTarget, PointMass, Spring, SpringLaw};
+pub use material::{Material, Section, Shape};
+pub use output::{Output, Probe, ProbeTarget, Quantity};
+pub use profile::{At, Profile};
+
+use nalgebra::Vector3;
+
+macro_rules! ids {
+    ($($(#[$doc:meta])* $name:ident => $list:ident: $item:ty),* $(,)?) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(pub usize);
+
+        impl std::ops::Index<$name> for Model {
+            type Output = $item;
+            fn index(&self, id: $name) -> &$item {
+                &self.$list[id.0]
+            }
+        }
+
+        impl std::ops::IndexMut<$name> for Model {
+            fn index_mut(&mut self, id: $name) -> &mut $item {
+                &mut self.$list[id.0]
+            }
+        }
+    )*};
+}
+
+ids! {
+    /// Position of a material in [`Model::materials`].
+    MaterialId => materials: Material,
+    /// Position of a section in [`Model::sections`].
+    SectionId => sections: Section,
+    /// Position of a beam in [`Model::beams`].
+    BeamId => beams: Beam,
+    /// Position of a body in [`Model::bodies`].
+    BodyId => bodies: Body,
+    /// Position of a joint in [`Model::joints`].
+    JointId => joints: Joint,
+    /// Position of a spring in [`Model::springs`].
+    SpringId => springs: Spring,
+    /// Position of a load in [`Model::loads`].
+    LoadId => loads: Load,
+}
+
+/// A named number that the model was built with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its name, unique.
+    pub name: String,
+    /// Its value, SI.
+    pub value: f64,
+    /// Its SI unit as text ("N", "m", "rad", "" for a plain number).
+    pub unit: String,
+}
+
+/// A compliant mechanism.
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    /// A title for people; may be empty.
+    pub name: String,
+    /// Gravity in global axes, m/s². Zero unless given.
+    pub gravity: Vector3<f64>,
+    /// The parameters and the values that the model was built with.
+    pub parameters: Vec<Parameter>,
+    /// Materials.
+    pub materials: Vec<Material>,
+    /// Cross sections.
+    pub sections: Vec<Section>,
+    /// Flexible beams.
+    pub beams: Vec<Beam>,
+    /// Rigid bodies, without the ground.
+    pub bodies: Vec<Body>,
+    /// Joints between bodies.
+    pub joints: Vec<Joint>,
+    /// Springs between two points.
+    pub springs: Vec<Spring>,
+    /// Lumped masses on beams.
+    pub masses: Vec<PointMass>,
+    /// Point forces and moments.
+    pub loads: Vec<Load>,
+    /// What the user wants to read off.
+    pub outputs: Vec<Output>,
+}

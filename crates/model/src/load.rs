@@ -1,0 +1,101 @@
+//! Point loads, lumped masses and springs.
+
+use crate::{At, BeamId, BodyRef};
+use flexura_spatial::Vector3;
+
+/// A place on a beam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BeamPoint {
+    /// Which beam.
+    pub beam: BeamId,
+    /// Where along it.
+    pub at: At,
+}
+
+/// Where a load acts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LoadTarget {
+    /// At a point of a body, in the body's frame, m.
+    Body {
+        /// The body.
+        body: crate::BodyId,
+        /// The point in the body's frame.
+        point: Vector3<f64>,
+    },
+    /// On a beam.
+    Beam(BeamPoint),
+}
+
+/// Does a load turn with what it acts on?
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LoadFrame {
+    /// Dead: constant in global axes.
+    Global,
+    /// Follower: constant in the axes of the body or of the beam's section.
+    Local,
+}
+
+/// A point force and moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Load {
+    /// Its name, unique among loads.
+    pub name: String,
+    /// Where it acts.
+    pub target: LoadTarget,
+    /// N.
+    pub force: Vector3<f64>,
+    /// N·m.
+    pub moment: Vector3<f64>,
+    /// Dead or follower.
+    pub frame: LoadFrame,
+}
+
+/// A lumped mass on a beam; weighs when there is gravity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointMass {
+    /// Its name, unique among masses.
+    pub name: String,
+    /// Where it sits.
+    pub point: BeamPoint,
+    /// kg.
+    pub mass: f64,
+}
+
+/// A point that a spring holds on to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Attachment {
+    /// A point of a body or of the ground, in its frame.
+    Body {
+        /// The body.
+        body: BodyRef,
+        /// The point, m.
+        point: Vector3<f64>,
+    },
+    /// A point of a beam's axis.
+    Beam(BeamPoint),
+}
+
+/// A spring between two points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spring {
+    /// Its name, unique among springs.
+    pub name: String,
+    /// One end.
+    pub from: Attachment,
+    /// The other end.
+    pub to: Attachment,
+    /// Its law.
+    pub law: SpringLaw,
+}
+
+/// Force against length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpringLaw {
+    /// Tension k (ℓ - ℓ0).
+    Linear {
+        /// k, N/m.
+        stiffness: f64,
+        /// ℓ0, m. None: the initial distance, so that it starts relaxed.
+        rest_length: Option<f64>,
+    },
+}

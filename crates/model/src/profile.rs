@@ -1,0 +1,89 @@
+//! Quantities that may vary along a beam.
+
+use flexura_expression::Function;
+
+/// A place along a beam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum At {
+    /// Fraction of the beam's undeformed length, 0 to 1.
+    Fraction(f64),
+    /// Undeformed arc length from the start, m.
+    Length(f64),
+}
+
+impl At {
+    /// The arc length (m) on a beam of the given length.
+    pub fn arc_length(&self, length: f64) -> f64 {
+        match self {
+            At::Fraction(fraction) => fraction * length,
+            At::Length(s) => *s,
+        }
+    }
+}
+
+/// A quantity along a beam.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Profile {
+    /// The same everywhere.
+    Constant(f64),
+    /// Straight lines between the rows, constant beyond the first and last row.
+    Table {
+        /// Where the rows stand, strictly increasing along the beam.
+        at: Vec<At>,
+        /// The value at each row, SI.
+        value: Vec<f64>,
+    },
+    /// A smooth function of the undeformed arc length s (m).
+    Function(Function),
+}
+
+impl Profile {
+    /// The value at arc length `s` on a beam of the given length.
+    pub fn value(&self, s: f64, length: f64) -> f64 {
+        match self {
+            Profile::Constant(value) => *value,
+            Profile::Function(function) => function.value(s),
+            Profile::Table { at, value } => {
+                let upper = at.partition_point(|row| row.arc_length(length) <= s);
+                if upper == 0 {
+                    return value[0];
+                }
+                if upper == at.len() {
+                    return value[upper - 1];
+                }
+                let (a, b) = (at[upper - 1].arc_length(length), at[upper].arc_length(length));
+                let t = (s - a) / (b - a);
+                value[upper - 1] * (1.0 - t) + value[upper] * t
+            }
+        }
+    }
+
+    /// The value if it is the same everywhere.
+    pub fn as_constant(&self) -> Option<f64> {
+        match self {
+            Profile::Constant(value) => Some(*value),
+            Profile::Function(function) => function.as_constant(),
+            Profile::Table { value, .. } => {
+                value.iter().all(|v| *v == value[0]).then(|| value[0])
+            }
+        }
+    }
+
+    /// Arc lengths strictly inside the beam where the profile has a kink.
+    pub fn breaks(&self, length: f64) -> Vec<f64> {
+        match self {
+            Profile::Table { at, .. } => at
+                .iter()
+                .map(|row| row.arc_length(length))
+                .filter(|s| *s > 0.0 && *s < length)
+                .collect(),
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl From<f64> for Profile {
+    fn from(value: f64) -> Self {
+        Profile::Constant(value)
+    }
+}

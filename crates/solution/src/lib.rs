@@ -1,0 +1,138 @@
+//! What a solve returns. Outputs read this and never a solver.
+//!
+//! Lists run parallel to the model's lists: `beams[i]` belongs to `model.beams[i]`. SI units, global axes
+//! unless said otherwise. `F` and `M` act, by the part beyond s, on the part before s.
+
+use flexura_spatial::{Pose, Vector3, Wrench};
+
+/// How a study ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// An equilibrium to the wanted tolerance.
+    Converged,
+    /// Load stepping came to a halt before the full load: a fold, usually.
+    Stalled,
+    /// The work limit was reached first.
+    IterationLimit,
+    /// The tangent has no inverse where the study stands.
+    Singular,
+    /// The wanted accuracy lies below what double precision gives here.
+    AccuracyLimit,
+}
+
+impl Status {
+    /// The word that stands in the result document.
+    pub fn word(self) -> &'static str {
+        match self {
+            Status::Converged => "converged",
+            Status::Stalled => "stalled",
+            Status::IterationLimit => "iteration_limit",
+            Status::Singular => "singular",
+            Status::AccuracyLimit => "accuracy_limit",
+        }
+    }
+}
+
+/// How much work a study was; counts, so that they repeat exactly.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Newton steps, full and simplified.
+    pub newton_steps: usize,
+    /// Tangents factorised.
+    pub factorisations: usize,
+    /// Residuals evaluated without a tangent.
+    pub residuals: usize,
+    /// Load steps taken, 1 when the full load was reached at once.
+    pub load_steps: usize,
+    /// Load steps tried and given up.
+    pub rejected_steps: usize,
+    /// Integration steps of the final mesh, over all beams.
+    pub integration_steps: usize,
+    /// Shooting segments of the final mesh, over all beams.
+    pub segments: usize,
+}
+
+/// One equilibrium, or how far the way to it went.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// How it ended.
+    pub status: Status,
+    /// Why, and what to try, when it did not converge.
+    pub reason: Option<String>,
+    /// Fraction of the full load that was reached; 1 when converged.
+    pub load_fraction: f64,
+    /// Largest scaled residual of the equilibrium equations.
+    pub residual: f64,
+    /// Estimated largest error of poses and wrenches, relative to L, 1, EI/L², EI/L.
+    pub error_estimate: f64,
+    /// Things a user should know though the solve went well.
+    pub warnings: Vec<String>,
+    /// Work counters.
+    pub work: Work,
+    /// One for each beam.
+    pub beams: Vec<BeamSolution>,
+    /// One for each body.
+    pub bodies: Vec<Pose>,
+    /// One for each joint.
+    pub joints: Vec<JointSolution>,
+    /// One for each spring.
+    pub springs: Vec<SpringSolution>,
+    /// Strain energy of beams and springs, J.
+    pub energy: f64,
+    /// Is it a stable equilibrium? None where that is not decided.
+    pub stable: Option<bool>,
+    /// Number of unstable directions. None where that is not decided.
+    pub unstable_directions: Option<usize>,
+    /// Why stability is not decided.
+    pub stability_reason: Option<String>,
+}
+
+/// A beam's state at its samples.
+#[derive(Clone, Debug, Default)]
+pub struct BeamSolution {
+    /// Samples, from 0 to the beam's length, increasing; every place that an output asks for is one.
+    pub samples: Vec<BeamSample>,
+    /// Length L of the undeformed axis, m.
+    pub length: f64,
+}
+
+/// The state of a beam at one place.
+#[derive(Clone, Copy, Debug)]
+pub struct BeamSample {
+    /// Undeformed arc length, m.
+    pub s: f64,
+    /// Pose of the section in the global frame, deformed.
+    pub pose: Pose,
+    /// Pose of the section in the global frame before anything was loaded.
+    pub rest_pose: Pose,
+    /// Internal force (N, global) and moment (N·m, global) at the section's axis.
+    pub wrench: Wrench,
+    /// k1, k2, k3 of the deformed beam, 1/m.
+    pub curvature: Vector3<f64>,
+    /// k1, k2, k3 of the rest shape, 1/m.
+    pub rest_curvature: Vector3<f64>,
+    /// ε, γ2, γ3.
+    pub strain: Vector3<f64>,
+}
+
+/// A joint's state.
+#[derive(Clone, Debug)]
+pub struct JointSolution {
+    /// Coordinates, m and rad.
+    pub coordinates: Vec<f64>,
+    /// Efforts along the coordinates, N and N·m.
+    pub efforts: Vec<f64>,
+    /// What the parent exerts on the child, at M's origin, in global axes.
+    pub wrench: Wrench,
+}
+
+/// A spring's state.
+#[derive(Clone, Copy, Debug)]
+pub struct SpringSolution {
+    /// Its two ends, global, m.
+    pub ends: [Vector3<f64>; 2],
+    /// Length, m.
+    pub length: f64,
+    /// Tension, N.
+    pub tension: f64,
+}
