@@ -1,1 +1,31 @@
-//! Being built.
+//! From a model to its square system of equations, and back to a solution.
+//!
+//! Everything inside is nondimensional: lengths by the longest beam L, forces by EI/L² of its softest
+//! bending stiffness. [`Equilibrium`] is the prepared problem; it implements `nonlinear::System`.
+//!
+//! - `lower`: model -> nodes, spans, joints, springs;
+//! - `beam`: the law of one beam at any place, as pieces that can be integrated;
+//! - `mesh`: how many steps and shooting segments a span gets;
+//! - `layout`: which number of the state and which unknown belongs to what;
+//! - `shooting`: spans carried from node to node with their derivatives;
+//! - `assembly`: residual and tangent; `system`: the `System` trait on it;
+//! - `accuracy`: the error estimate; `diagnose`: what is loose or held twice; `extract`: the solution.
+
+mod accuracy;
+mod assembly;
+mod beam;
+mod coordinates;
+mod diagnose;
+mod error;
+mod extract;
+mod layout;
+mod lower;
+mod mesh;
+mod scale;
+mod shooting;
+mod system;
+
+pub use accuracy::Finish;
+pub use diagnose::Census;
+pub use error::ProblemError;
+pub use system::{Counts, Equilibrium};

@@ -12,6 +12,7 @@ mod load;
 mod material;
 mod output;
 mod profile;
+mod validate;
 
 pub use beam::{Beam, BeamTheory, Curve, Distributed, End, LoadAxes, SectionFrame};
 pub use body::{Body, BodyRef, Frame};
@@ -20,6 +21,7 @@ pub use load::{Attachment, BeamPoint, Load, LoadFrame, LoadTarget, PointMass, Sp
 pub use material::{Material, Section, Shape};
 pub use output::{Output, Probe, ProbeTarget, Quantity};
 pub use profile::{At, Profile};
+pub use validate::{Issue, name_problem};
 
 use nalgebra::Vector3;
 

@@ -31,6 +31,7 @@ pub struct Section {
 
 /// The shapes of cross sections; dimensions in metres, each may vary along the beam.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant)] // There are few sections; a box would only be in the way.
 pub enum Shape {
     /// Solid rectangle.
     Rectangle {

@@ -63,20 +63,16 @@ impl Profile {
         match self {
             Profile::Constant(value) => Some(*value),
             Profile::Function(function) => function.as_constant(),
-            Profile::Table { value, .. } => {
-                value.iter().all(|v| *v == value[0]).then(|| value[0])
-            }
+            Profile::Table { value, .. } => value.iter().all(|v| *v == value[0]).then(|| value[0]),
         }
     }
 
     /// Arc lengths strictly inside the beam where the profile has a kink.
     pub fn breaks(&self, length: f64) -> Vec<f64> {
         match self {
-            Profile::Table { at, .. } => at
-                .iter()
-                .map(|row| row.arc_length(length))
-                .filter(|s| *s > 0.0 && *s < length)
-                .collect(),
+            Profile::Table { at, .. } => {
+                at.iter().map(|row| row.arc_length(length)).filter(|s| *s > 0.0 && *s < length).collect()
+            }
             _ => Vec::new(),
         }
     }

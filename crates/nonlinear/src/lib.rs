@@ -1,1 +1,14 @@
-//! Being built.
+//! Square systems of nonlinear equations: Newton's method, the way from rest to the full load, and the
+//! factorisations behind them. Nothing here knows of beams.
+
+mod chain;
+mod dense;
+mod homotopy;
+mod newton;
+mod system;
+
+pub use chain::{BLOCK, Block, Chain};
+pub use dense::Dense;
+pub use homotopy::{PathEnd, PathOptions, PathWork, follow};
+pub use newton::{NewtonEnd, NewtonOptions, converge};
+pub use system::{Breakdown, System};

@@ -1,0 +1,633 @@
+//! Residual and tangent.
+//!
+//! Pattern of the interface tangent for one span between nodes A and B (rows are equations, columns unknowns):
+//!
+//! ```text
+//!                    pose A   q_start   wrench   x_last   q_end   pose B
+//! balance of A     [   x         x         x                             ]
+//! effort of start  [   x         x         x                             ]
+//! closure at B     [   x         x         x        x       x        x   ]
+//! chain            [   x         x         x        x                    ]
+//! effort of end    [   x         x         x        x       x        x   ]
+//! balance of B     [   x         x         x        x       x        x   ]
+//! ```
+//!
+//! With one segment there is no x_last and the closure depends on the head directly; with more, the end depends
+//! on x_last only. Closure rows are `log(R_end R_targetᵀ)` and `p_end - p_target`; their tangent is taken
+//! before the inverse left Jacobian of the logarithm, which leaves the Newton step exactly the same because
+//! that Jacobian leaves the residual itself unchanged.
+
+use crate::lower::{Carrier, Hold};
+use crate::shooting::{Plain, SegmentEnd, carry_columns, carry_plain, jump, plain, pose_of, wrench_of};
+use crate::system::Equilibrium;
+use flexura_mechanics::joint::{Configuration, Kinematics};
+use flexura_nonlinear::{Block, Breakdown, Dense};
+use flexura_spatial::{Pose, Twist, Vector3, Wrench, log};
+
+type V = Vector3<f64>;
+
+fn unit(i: usize) -> V {
+    let mut e = V::zeros();
+    e[i] = 1.0;
+    e
+}
+
+pub(crate) fn rows(column: &[f64; 12], first: usize) -> V {
+    V::new(column[first], column[first + 1], column[first + 2])
+}
+
+/// A frame carried by a node through a joint, and how it moves.
+pub(crate) struct Held {
+    /// Node that carries it, with the node's origin.
+    node: Option<(usize, V)>,
+    /// Where the joint's moving frame is.
+    pub moving: Pose,
+    /// The same with what is left of the mismatch.
+    pub target: Pose,
+    /// Columns of H of the unknown coordinates, global.
+    subspace: [Twist; 3],
+    count: usize,
+    /// The lines of H turn with M rather than with F.
+    turns_with_m: bool,
+}
+
+impl Held {
+    /// How the target moves when the carrying node moves along its unknown `i` (three turnings, three shifts).
+    fn by_node(&self, i: usize) -> Twist {
+        match self.node {
+            Some((_, origin)) if i < 3 => {
+                Twist { angular: unit(i), linear: unit(i).cross(&(self.target.position - origin)) }
+            }
+            Some(_) => Twist { angular: V::zeros(), linear: unit(i - 3) },
+            None => Twist { angular: V::zeros(), linear: V::zeros() },
+        }
+    }
+
+    /// How the target moves along coordinate `i`.
+    fn by_coordinate(&self, i: usize) -> Twist {
+        let h = &self.subspace[i];
+        let lever = self.target.position - self.moving.position;
+        Twist { angular: h.angular, linear: h.linear + h.angular.cross(&lever) }
+    }
+
+    fn arm(&self) -> V {
+        self.node.map_or(V::zeros(), |(_, origin)| self.target.position - origin)
+    }
+
+    /// `H_iᵀ W` for the wrench `w` about the target's origin.
+    fn effort(&self, i: usize, w: &Wrench) -> f64 {
+        let lever = self.target.position - self.moving.position;
+        let h = &self.subspace[i];
+        h.angular.dot(&(w.moment + lever.cross(&w.force))) + h.linear.dot(&w.force)
+    }
+}
+
+impl Equilibrium {
+    pub(crate) fn held(&self, carrier: &Carrier, hold: &HoldRef<'_>, configuration: &Configuration) -> Held {
+        let base = self.node_pose(carrier.node);
+        let fixed = base * carrier.frame;
+        let coordinates = hold.coordinates;
+        let moving = fixed * coordinates.joint.pose(configuration);
+        let left = 1.0 - self.load;
+        let target = if left == 0.0 || is_zero(hold.mismatch) {
+            moving
+        } else {
+            let twist =
+                Twist { angular: hold.mismatch.angular * left, linear: hold.mismatch.linear * left };
+            moving * Pose::exp(&twist)
+        };
+        let mut subspace = [Twist { angular: V::zeros(), linear: V::zeros() }; 3];
+        let count = coordinates.unknowns();
+        for (i, h) in subspace.iter_mut().enumerate().take(count) {
+            let local = coordinates.subspace(configuration, i);
+            *h = Twist { angular: fixed.rotation * local.angular, linear: fixed.rotation * local.linear };
+        }
+        Held {
+            node: carrier.node.map(|n| (n, base.position)),
+            moving,
+            target,
+            subspace,
+            count,
+            turns_with_m: coordinates.spin_held.is_some(),
+        }
+    }
+
+    fn start_hold(&self, span: usize) -> Held {
+        let hold = &self.lowered.spans[span].start;
+        let configuration = self.configuration(&self.layout.spans[span].start);
+        self.held(&hold.carrier, &HoldRef::of(hold), &configuration)
+    }
+
+    /// The state at the start of a span, before any point load there.
+    pub(crate) fn head_state(&self, span: usize) -> Plain {
+        let held = self.start_hold(span);
+        plain(&held.target, &self.start_wrench(span))
+    }
+
+    fn start_wrench(&self, span: usize) -> Wrench {
+        let slot = &self.layout.spans[span].wrench;
+        let force = if self.lowered.spans[span].determinate {
+            self.known_force[span] * self.load
+        } else {
+            self.triple(slot.state)
+        };
+        Wrench::new(force, self.triple(slot.state + 3))
+    }
+
+    /// Calls `f(column, unknown)` for every unknown that a span's head depends on; returns their number.
+    pub(crate) fn head_unknowns(&self, span: usize, mut f: impl FnMut(usize, usize)) -> usize {
+        let slots = &self.layout.spans[span];
+        let mut count = 0;
+        let mut visit = |first: usize, n: usize| {
+            for i in 0..n {
+                f(count, first + i);
+                count += 1;
+            }
+        };
+        if let Some(node) = self.lowered.spans[span].start.carrier.node {
+            visit(self.layout.nodes[node].unknown, 6);
+        }
+        visit(slots.start.unknown, slots.start.count);
+        visit(slots.wrench.unknown, slots.wrench.count);
+        count
+    }
+
+    /// Derivatives of the start of a span along its head unknowns.
+    fn seed_head(&self, span: usize, held: &Held, end: &mut SegmentEnd) {
+        let slot = &self.layout.spans[span].wrench;
+        let mut count = 0;
+        let mut push = |angular: V, linear: V| {
+            let column = &mut end.columns[count];
+            *column = [0.0; 12];
+            column[..3].copy_from_slice(angular.as_slice());
+            column[3..6].copy_from_slice(linear.as_slice());
+            count += 1;
+        };
+        if held.node.is_some() {
+            for i in 0..6 {
+                let twist = held.by_node(i);
+                push(twist.angular, twist.linear);
+            }
+        }
+        for i in 0..held.count {
+            let twist = held.by_coordinate(i);
+            push(twist.angular, twist.linear);
+        }
+        for i in 0..slot.count {
+            end.columns[count] = [0.0; 12];
+            end.columns[count][12 - slot.count + i] = 1.0;
+            count += 1;
+        }
+        end.count = count;
+    }
+
+    /// Evaluates the residual, and the tangent too if asked.
+    pub(crate) fn evaluate(&mut self, tangent: bool) -> Result<(), Breakdown> {
+        let mut matrix = std::mem::take(&mut self.tangent);
+        let mut r = std::mem::take(&mut self.r);
+        r.fill(0.0);
+        if tangent {
+            matrix.reset(self.layout.interface);
+        }
+        let mut sink = Sink { r: &mut r, matrix: tangent.then_some(&mut matrix) };
+        let mut outcome = Ok(());
+        for span in 0..self.lowered.spans.len() {
+            outcome = outcome.and(self.evaluate_span(span, &mut sink));
+        }
+        for joint in 0..self.lowered.joints.len() {
+            self.evaluate_joint(joint, &mut sink);
+        }
+        self.evaluate_node_loads(&mut sink);
+        self.evaluate_springs(&mut sink);
+        if r.iter().any(|v| !v.is_finite()) {
+            outcome = outcome.and(Err(Breakdown::NotFinite));
+        }
+        self.tangent = matrix;
+        self.r = r;
+        outcome
+    }
+
+    fn evaluate_span(&mut self, span: usize, sink: &mut Sink<'_>) -> Result<(), Breakdown> {
+        let held = self.start_hold(span);
+        let wrench = self.start_wrench(span);
+        let head = plain(&held.target, &wrench);
+        let mut ends = std::mem::take(&mut self.ends[span]);
+        let mut gaps = std::mem::take(&mut self.gaps[span]);
+        let (load, derive) = (self.load, sink.matrix.is_some());
+        {
+            let mesh = &self.meshes[span];
+            let jumps = &self.lowered.spans[span].jumps;
+            let mut level = crate::mesh::Level::default();
+            for (k, (segment, end)) in mesh.segments.iter().zip(&mut ends).enumerate() {
+                let first: &[usize] = if k == 0 { &mesh.first_jumps } else { &[] };
+                let start =
+                    if k == 0 { head } else { self.inner_state(self.layout.spans[span].inner[k - 1].state) };
+                if derive {
+                    if k == 0 {
+                        self.seed_head(span, &held, end);
+                    } else {
+                        end.count = 12;
+                        for (i, column) in end.columns[..12].iter_mut().enumerate() {
+                            *column = [0.0; 12];
+                            column[i] = 1.0;
+                        }
+                    }
+                    carry_columns(segment, jumps, first, load, &start, end);
+                } else {
+                    end.state = start;
+                    for &j in first {
+                        jump(&jumps[j], load, &mut end.state);
+                    }
+                    carry_plain(segment, jumps, load, &mut end.state);
+                }
+                let size = |v: &[f64; 3]| V::from(*v).norm();
+                level.force = level.force.max(size(&start.force)).max(size(&end.state.force));
+                level.moment = level.moment.max(size(&start.moment)).max(size(&end.state.moment));
+                if k + 1 < mesh.segments.len() {
+                    let next = self.inner_state(self.layout.spans[span].inner[k].state);
+                    gaps[k] = gap(&end.state, &next);
+                }
+            }
+            self.levels[span] = level;
+        }
+        let outcome = if derive { self.eliminate(span, &ends, sink) } else { Ok(()) };
+        self.start_rows(span, &held, &wrench, sink);
+        let last = &ends[ends.len() - 1];
+        self.end_rows(span, last, sink);
+        self.ends[span] = ends;
+        self.gaps[span] = gaps;
+        outcome
+    }
+
+    /// Removes the inner states but the last; what is left stands in the rows of the last.
+    fn eliminate(&mut self, span: usize, ends: &[SegmentEnd], sink: &mut Sink<'_>) -> Result<(), Breakdown> {
+        let Some(last) = self.layout.spans[span].inner.last().copied() else { return Ok(()) };
+        let mut chain = std::mem::take(&mut self.chains[span]);
+        let turned = |k: usize, column: &[f64; 12]| {
+            let next = self.inner_state(self.layout.spans[span].inner[k].state);
+            let error = pose_of(&next).rotation * pose_of(&ends[k].state).rotation.inverse();
+            let mut out = *column;
+            out[..3].copy_from_slice((error * rows(column, 0)).as_slice());
+            out
+        };
+        let count = ends[0].count;
+        let columns: Vec<[f64; 12]> = ends[0].columns[..count].iter().map(|c| turned(0, c)).collect();
+        let head: Vec<Vec<f64>> = (0..12).map(|i| columns.iter().map(|c| c[i]).collect()).collect();
+        chain.start(&head);
+        let mut outcome = Ok(());
+        for k in 1..ends.len() - 1 {
+            let mut block: Block = [[0.0; 12]; 12];
+            for (j, column) in ends[k].columns[..12].iter().enumerate() {
+                let column = turned(k, column);
+                for i in 0..12 {
+                    block[i][j] = column[i];
+                }
+            }
+            outcome = outcome.and(chain.extend(&block));
+        }
+        if let Some(matrix) = sink.matrix.as_deref_mut() {
+            for i in 0..12 {
+                let row = matrix.row_mut(last.unknown + i);
+                self.head_unknowns(span, |k, unknown| row[unknown] += chain.left_head[i][k]);
+                for j in 0..12 {
+                    row[last.unknown + j] += chain.left_state[i][j];
+                }
+            }
+        }
+        self.chains[span] = chain;
+        outcome
+    }
+
+    /// Effort at the start, and what the span's start exerts on the node that carries it: +F, +M.
+    fn start_rows(&self, span: usize, held: &Held, wrench: &Wrench, sink: &mut Sink<'_>) {
+        let slots = &self.layout.spans[span];
+        let hold = &self.lowered.spans[span].start;
+        // The joint's wrench, parent on child, is what holds the beam: minus the internal wrench.
+        let on_child = -*wrench;
+        let derivative = |f: &mut dyn FnMut(usize, Wrench)| {
+            for i in 0..slots.wrench.count {
+                let row = 6 - slots.wrench.count + i;
+                let change = if row < 3 {
+                    Wrench::new(unit(row), V::zeros())
+                } else {
+                    Wrench::new(V::zeros(), unit(row - 3))
+                };
+                f(slots.wrench.unknown + i, -change);
+            }
+        };
+        self.hold_rows(held, &slots.start, &hold.coordinates, &on_child, &derivative, sink);
+    }
+
+    /// What must hold at the end of a span.
+    fn end_rows(&self, span: usize, last: &SegmentEnd, sink: &mut Sink<'_>) {
+        let slots = &self.layout.spans[span];
+        let description = &self.lowered.spans[span];
+        let wrench = wrench_of(&last.state);
+        let single = slots.inner.is_empty();
+        let mut unknowns = [0usize; crate::shooting::MAX_COLUMNS];
+        let count = match slots.inner.last() {
+            None => self.head_unknowns(span, |k, unknown| unknowns[k] = unknown),
+            Some(inner) => {
+                for (i, u) in unknowns.iter_mut().enumerate().take(12) {
+                    *u = inner.unknown + i;
+                }
+                12
+            }
+        };
+        debug_assert!(!single || sink.matrix.is_none() || count == last.count);
+        let columns = || unknowns[..count].iter().copied().zip(&last.columns[..count]);
+        let base = slots.wrench.unknown;
+        let Some(hold) = &description.end else {
+            // Free: nothing beyond. A determinate span's force vanishes by construction.
+            let skip = 6 - slots.wrench.count;
+            let all = [wrench.force, wrench.moment];
+            for i in skip..6 {
+                sink.r[base + i - skip] += all[i / 3][i % 3];
+                if let Some(matrix) = sink.matrix.as_deref_mut() {
+                    let row = matrix.row_mut(base + i - skip);
+                    for (unknown, column) in columns() {
+                        row[unknown] += column[6 + i];
+                    }
+                }
+            }
+            return;
+        };
+        let held = self.held(&hold.carrier, &HoldRef::of(hold), &self.configuration(&slots.end));
+        let end = pose_of(&last.state);
+        let error = end.rotation * held.target.rotation.inverse();
+        sink.add_residual(base, &log(&error));
+        sink.add_residual(base + 3, &(end.position - held.target.position));
+        if sink.matrix.is_some() {
+            for (unknown, column) in columns() {
+                sink.add(base, unknown, &rows(column, 0));
+                sink.add(base + 3, unknown, &rows(column, 3));
+            }
+            self.target_columns(&held, slots.end.unknown, |unknown, twist| {
+                sink.add(base, unknown, &-(error * twist.angular));
+                sink.add(base + 3, unknown, &-twist.linear);
+            });
+        }
+        let derivative = |f: &mut dyn FnMut(usize, Wrench)| {
+            for (unknown, column) in columns() {
+                f(unknown, Wrench::new(rows(column, 6), rows(column, 9)));
+            }
+        };
+        self.hold_rows(&held, &slots.end, &hold.coordinates, &wrench, &derivative, sink);
+    }
+
+    /// Calls `f(unknown, motion of the target)` for the node and coordinates that move a held frame.
+    fn target_columns(&self, held: &Held, coordinates: usize, mut f: impl FnMut(usize, Twist)) {
+        if let Some((node, _)) = held.node {
+            for i in 0..6 {
+                f(self.layout.nodes[node].unknown + i, held.by_node(i));
+            }
+        }
+        for i in 0..held.count {
+            f(coordinates + i, held.by_coordinate(i));
+        }
+    }
+
+    /// Balance and effort rows of a joint or hold whose carrier is the parent: the parent feels minus the wrench,
+    /// and `Hᵀ W = τ`. `derivative` lists how W changes along the unknowns that it depends on.
+    fn hold_rows(
+        &self,
+        held: &Held,
+        slot: &crate::layout::CoordinateSlot,
+        coordinates: &crate::coordinates::Coordinates,
+        wrench: &Wrench,
+        derivative: &dyn Fn(&mut dyn FnMut(usize, Wrench)),
+        sink: &mut Sink<'_>,
+    ) {
+        if let Some((node, _)) = held.node {
+            let base = self.layout.nodes[node].unknown;
+            let arm = held.arm();
+            // Rows of a node: moment about its origin first, then force, as its unknowns are turning and shift.
+            sink.add_residual(base, &-(wrench.moment + arm.cross(&wrench.force)));
+            sink.add_residual(base + 3, &-wrench.force);
+            if sink.matrix.is_some() {
+                derivative(&mut |unknown, change| {
+                    sink.add(base, unknown, &-(change.moment + arm.cross(&change.force)));
+                    sink.add(base + 3, unknown, &-change.force);
+                });
+                self.target_columns(held, slot.unknown, |unknown, twist| {
+                    // The arm turns with the node but does not change when the node only shifts.
+                    let shifts = twist.angular == V::zeros()
+                        && (base + 3..base + 6).contains(&unknown);
+                    if !shifts {
+                        sink.add(base, unknown, &-twist.linear.cross(&wrench.force));
+                    }
+                });
+            }
+        }
+        if held.count == 0 {
+            return;
+        }
+        let (tau, slope) = coordinates.efforts(&self.configuration(slot), self.load);
+        let lever = held.target.position - held.moving.position;
+        let about = wrench.moment + lever.cross(&wrench.force);
+        for i in 0..held.count {
+            let row = slot.unknown + i;
+            sink.r[row] += held.effort(i, wrench) - tau[i];
+            if sink.matrix.is_none() {
+                continue;
+            }
+            derivative(&mut |unknown, change| sink.add_number(row, unknown, held.effort(i, &change)));
+            let h = &held.subspace[i];
+            // H and the lever turn with whatever carries F, and the lever with M.
+            let turned = |axis: &V, lines: bool| {
+                let lines = if lines {
+                    axis.cross(&h.angular).dot(&about) + axis.cross(&h.linear).dot(&wrench.force)
+                } else {
+                    0.0
+                };
+                lines + h.angular.dot(&axis.cross(&lever).cross(&wrench.force))
+            };
+            if let Some((node, _)) = held.node {
+                for k in 0..3 {
+                    sink.add_number(row, self.layout.nodes[node].unknown + k, turned(&unit(k), true));
+                }
+            }
+            for (j, other) in held.subspace.iter().enumerate().take(held.count) {
+                let change = turned(&other.angular, held.turns_with_m) - slope[i][j];
+                sink.add_number(row, slot.unknown + j, change);
+            }
+        }
+    }
+
+    fn evaluate_joint(&self, index: usize, sink: &mut Sink<'_>) {
+        let joint = &self.lowered.joints[index];
+        let slots = &self.layout.joints[index];
+        let reference = HoldRef { coordinates: &joint.coordinates, mismatch: &joint.mismatch };
+        let held = self.held(&joint.parent, &reference, &self.configuration(&slots.coordinates));
+        let base = self.node_pose(joint.child.node);
+        let child = base * joint.child.frame;
+        let wrench = Wrench::new(self.triple(slots.wrench.state), self.triple(slots.wrench.state + 3));
+        let closure = slots.wrench.unknown;
+        let error = child.rotation * held.target.rotation.inverse();
+        sink.add_residual(closure, &log(&error));
+        sink.add_residual(closure + 3, &(child.position - held.target.position));
+        if sink.matrix.is_some() {
+            self.target_columns(&held, slots.coordinates.unknown, |unknown, twist| {
+                sink.add(closure, unknown, &-(error * twist.angular));
+                sink.add(closure + 3, unknown, &-twist.linear);
+            });
+        }
+        let wrench_column = |i: usize| {
+            if i < 3 { Wrench::new(unit(i), V::zeros()) } else { Wrench::new(V::zeros(), unit(i - 3)) }
+        };
+        if let Some(node) = joint.child.node {
+            let rows = self.layout.nodes[node].unknown;
+            let arm = child.position - base.position;
+            sink.add_residual(rows, &(wrench.moment + arm.cross(&wrench.force)));
+            sink.add_residual(rows + 3, &wrench.force);
+            if sink.matrix.is_some() {
+                for i in 0..3 {
+                    sink.add(closure, rows + i, &unit(i));
+                    sink.add(closure + 3, rows + i, &unit(i).cross(&arm));
+                    sink.add(closure + 3, rows + 3 + i, &unit(i));
+                    sink.add(rows, rows + i, &unit(i).cross(&arm).cross(&wrench.force));
+                }
+                for i in 0..6 {
+                    let change = wrench_column(i);
+                    sink.add(rows, closure + i, &(change.moment + arm.cross(&change.force)));
+                    sink.add(rows + 3, closure + i, &change.force);
+                }
+            }
+        }
+        let derivative = |f: &mut dyn FnMut(usize, Wrench)| {
+            for i in 0..6 {
+                f(closure + i, wrench_column(i));
+            }
+        };
+        self.hold_rows(&held, &slots.coordinates, &joint.coordinates, &wrench, &derivative, sink);
+    }
+
+    fn evaluate_node_loads(&self, sink: &mut Sink<'_>) {
+        for (node, slot) in self.lowered.nodes.iter().zip(&self.layout.nodes) {
+            let pose = crate::system::read_pose(&self.x, slot.state);
+            for (point, load, _) in &node.loads {
+                let wrench = load.at(&pose.rotation) * self.load;
+                let arm = pose.rotation * point;
+                sink.add_residual(slot.unknown, &(wrench.moment + arm.cross(&wrench.force)));
+                sink.add_residual(slot.unknown + 3, &wrench.force);
+                if sink.matrix.is_some() {
+                    for i in 0..3 {
+                        let change = load.change(&pose.rotation, &unit(i)) * self.load;
+                        let moved = unit(i).cross(&arm).cross(&wrench.force);
+                        let column = slot.unknown + i;
+                        sink.add(slot.unknown, column, &(change.moment + arm.cross(&change.force) + moved));
+                        sink.add(slot.unknown + 3, column, &change.force);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The spring's ends, global, nondimensional.
+    pub(crate) fn spring_ends(&self, index: usize) -> [V; 2] {
+        self.lowered.springs[index].ends.map(|(node, point)| self.node_pose(node).point(&point))
+    }
+
+    /// The law at the present load: the rest length moves from the initial length.
+    pub(crate) fn spring_law(&self, index: usize) -> flexura_mechanics::spring::LinearSpring {
+        let link = &self.lowered.springs[index];
+        let rest = link.initial_length + self.load * (link.law.rest_length - link.initial_length);
+        flexura_mechanics::spring::LinearSpring { rest_length: rest, ..link.law }
+    }
+
+    fn evaluate_springs(&self, sink: &mut Sink<'_>) {
+        for (index, link) in self.lowered.springs.iter().enumerate() {
+            let ends = self.spring_ends(index);
+            let Some(force) = self.spring_law(index).between(&ends[0], &ends[1]) else {
+                if let Some((Some(node), _)) = link.ends.iter().find(|(node, _)| node.is_some()) {
+                    sink.r[self.layout.nodes[*node].unknown] = f64::NAN;
+                }
+                continue;
+            };
+            for (which, (node, _)) in link.ends.iter().enumerate() {
+                let Some(node) = *node else { continue };
+                let rows = self.layout.nodes[node].unknown;
+                let sign = if which == 0 { 1.0 } else { -1.0 };
+                let arm = ends[which] - self.node_pose(Some(node)).position;
+                let f = force.force * sign;
+                sink.add_residual(rows, &arm.cross(&f));
+                sink.add_residual(rows + 3, &f);
+                if sink.matrix.is_none() {
+                    continue;
+                }
+                for i in 0..3 {
+                    sink.add(rows, rows + i, &unit(i).cross(&arm).cross(&f));
+                }
+                for (other, (carrier, _)) in link.ends.iter().enumerate() {
+                    let Some(carrier) = *carrier else { continue };
+                    let columns = self.layout.nodes[carrier].unknown;
+                    let lever = ends[other] - self.node_pose(Some(carrier)).position;
+                    let towards = if other == 1 { sign } else { -sign };
+                    for i in 0..6 {
+                        let motion = if i < 3 { unit(i).cross(&lever) } else { unit(i - 3) };
+                        let change = force.tangent * motion * towards;
+                        sink.add(rows, columns + i, &arm.cross(&change));
+                        sink.add(rows + 3, columns + i, &change);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// What a hold and a joint have in common.
+pub(crate) struct HoldRef<'a> {
+    pub coordinates: &'a crate::coordinates::Coordinates,
+    pub mismatch: &'a Twist,
+}
+
+impl<'a> HoldRef<'a> {
+    pub fn of(hold: &'a Hold) -> Self {
+        Self { coordinates: &hold.coordinates, mismatch: &hold.mismatch }
+    }
+}
+
+fn is_zero(twist: &Twist) -> bool {
+    twist.angular == V::zeros() && twist.linear == V::zeros()
+}
+
+/// `-(next ⊟ end)`: what is still missing from the step of the next state.
+fn gap(end: &Plain, next: &Plain) -> [f64; 12] {
+    let turn = log(&(pose_of(next).rotation * pose_of(end).rotation.inverse()));
+    let mut g = [0.0; 12];
+    for i in 0..3 {
+        g[i] = -turn[i];
+        g[3 + i] = end.position[i] - next.position[i];
+        g[6 + i] = end.force[i] - next.force[i];
+        g[9 + i] = end.moment[i] - next.moment[i];
+    }
+    g
+}
+
+/// Where residual and, if wanted, tangent go.
+pub(crate) struct Sink<'a> {
+    r: &'a mut [f64],
+    matrix: Option<&'a mut Dense>,
+}
+
+impl Sink<'_> {
+    fn add_residual(&mut self, row: usize, v: &V) {
+        for i in 0..3 {
+            self.r[row + i] += v[i];
+        }
+    }
+
+    fn add(&mut self, row: usize, column: usize, v: &V) {
+        if let Some(matrix) = self.matrix.as_deref_mut() {
+            for i in 0..3 {
+                matrix.row_mut(row + i)[column] += v[i];
+            }
+        }
+    }
+
+    fn add_number(&mut self, row: usize, column: usize, v: f64) {
+        if let Some(matrix) = self.matrix.as_deref_mut() {
+            matrix.row_mut(row)[column] += v;
+        }
+    }
+}

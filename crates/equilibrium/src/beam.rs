@@ -1,0 +1,311 @@
+//! The law of one beam at any place along it, and pieces of it that can be integrated.
+
+use crate::error::ProblemError;
+use crate::scale::Scale;
+use flexura_geometry::{
+    Compliance, RestShape, compliance, is_uniform, mass_per_length, section_breaks,
+};
+use flexura_mechanics::ode::{NODES, STAGES};
+use flexura_mechanics::rod::{Coupled, LawTable, LoadSample, Piece, Shearable, Slender};
+use flexura_model::{Beam, BeamId, LoadAxes, Material, Model, Profile, Section};
+use flexura_spatial::Vector3;
+
+/// Rest curvature and compliance at one place, SI.
+#[derive(Clone, Debug)]
+pub(crate) struct LocalLaw {
+    pub k0: Vector3<f64>,
+    pub compliance: Compliance,
+}
+
+impl LocalLaw {
+    /// `(ν - ν0, k)` for the section force and moment, SI.
+    pub fn strain(&self, n: &Vector3<f64>, m: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        let c = self.compliance.to_matrix();
+        let e = c * flexura_spatial::Vector6::new(n.x, n.y, n.z, m.x, m.y, m.z);
+        (Vector3::new(e[0], e[1], e[2]), self.k0 + Vector3::new(e[3], e[4], e[5]))
+    }
+}
+
+/// One beam of the model, ready to be cut into pieces.
+#[derive(Clone, Debug)]
+pub(crate) struct BeamLaw {
+    pub shape: RestShape,
+    pub length: f64,
+    beam: Beam,
+    section: Section,
+    material: Option<Material>,
+    gravity: Vector3<f64>,
+    uniform: bool,
+    loaded: bool,
+    loads_uniform: bool,
+    coupled: bool,
+    pub scale: Scale,
+    /// Softest and stiffest of the bending and torsional compliances found on a scan, SI.
+    pub softest: f64,
+    /// Nondimensional units of force and moment of this beam, EI/L² and EI/L of its softest bending.
+    pub wrench_unit: [f64; 2],
+}
+
+impl BeamLaw {
+    pub fn new(model: &Model, id: BeamId) -> Result<Self, ProblemError> {
+        let beam = model[id].clone();
+        let path = format!("beam.{}", beam.name);
+        let shape = RestShape::new(&beam.curve, &beam.frame).map_err(|error| {
+            ProblemError::new(format!("{path}.curve"), error.to_string(), "check the curve's numbers")
+        })?;
+        let section = model[beam.section].clone();
+        let material = beam.material.map(|m| model[m].clone());
+        let length = shape.length();
+        let mut law = Self {
+            uniform: shape.uniform().is_some() && is_uniform(&section),
+            loaded: false,
+            loads_uniform: beam
+                .distributed
+                .iter()
+                .all(|d| d.force.iter().chain(&d.moment).all(|p| p.as_constant().is_some()))
+                && is_uniform(&section),
+            coupled: false,
+            gravity: model.gravity,
+            scale: Scale { length: 1.0, force: 1.0 },
+            softest: 0.0,
+            wrench_unit: [1.0; 2],
+            shape,
+            length,
+            beam,
+            section,
+            material,
+        };
+        law.scan(&path)?;
+        Ok(law)
+    }
+
+    /// Looks at the whole beam once, so that later evaluations cannot fail.
+    fn scan(&mut self, path: &str) -> Result<(), ProblemError> {
+        let places = 65;
+        for i in 0..places {
+            let s = self.length * i as f64 / (places - 1) as f64;
+            let law = self.try_law_at(s).map_err(|error| {
+                ProblemError::new(format!("section.{}", self.section.name), error, format!("used by {path}"))
+            })?;
+            let c = law.compliance.to_matrix();
+            for j in 3..6 {
+                if c[(j, j)] < 0.0 || !c[(j, j)].is_finite() {
+                    return Err(ProblemError::new(
+                        format!("section.{}", self.section.name),
+                        "gives a stiffness that is not positive",
+                        "give positive dimensions and stiffnesses",
+                    ));
+                }
+            }
+            self.softest = self.softest.max(c[(4, 4)]).max(c[(5, 5)]).max(c[(3, 3)]);
+            self.coupled |= matches!(law.compliance, Compliance::Full(_));
+            let load = self.load_at(s);
+            self.loaded |= load != LoadSample::default();
+            let numbers = [load.dead_force, load.dead_moment, load.section_force, load.section_moment];
+            if numbers.iter().flatten().any(|v| !v.is_finite()) {
+                return Err(ProblemError::new(
+                    format!("{path}.distributed"),
+                    format!("gives no finite number at s = {s} m"),
+                    "check the expression",
+                ));
+            }
+        }
+        if self.softest == 0.0 {
+            return Err(ProblemError::new(
+                path,
+                "neither bends nor twists: all its stiffnesses are infinite",
+                "make it a body, or give it a finite stiffness",
+            ));
+        }
+        Ok(())
+    }
+
+    /// EI of the softest bending or torsion, N·m².
+    pub fn stiffness(&self) -> f64 {
+        1.0 / self.softest
+    }
+
+    pub fn set_scale(&mut self, scale: Scale) {
+        self.scale = scale;
+        self.wrench_unit = [
+            self.stiffness() / (self.length * self.length) / scale.force,
+            self.stiffness() / self.length / scale.moment(),
+        ];
+    }
+
+    /// Does a distributed load act?
+    pub fn is_loaded(&self) -> bool {
+        self.loaded
+    }
+
+    /// Does a distributed load follow the section?
+    pub fn follows(&self) -> bool {
+        self.beam.distributed.iter().any(|d| {
+            d.axes == LoadAxes::Section
+                && d.force.iter().chain(&d.moment).any(|p| p.as_constant() != Some(0.0))
+        })
+    }
+
+    /// Arc lengths inside the beam where something is not smooth, SI, increasing.
+    pub fn breaks(&self) -> Vec<f64> {
+        let mut breaks = self.shape.breaks().to_vec();
+        breaks.extend(section_breaks(&self.section, self.length));
+        for load in &self.beam.distributed {
+            for profile in load.force.iter().chain(&load.moment) {
+                breaks.extend(profile.breaks(self.length));
+            }
+        }
+        breaks.retain(|s| *s > 0.0 && *s < self.length);
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-13 * self.length);
+        breaks
+    }
+
+    fn try_law_at(&self, s: f64) -> Result<LocalLaw, String> {
+        let compliance =
+            compliance(&self.section, self.material.as_ref(), self.beam.theory, s, self.length)
+                .map_err(|error| error.to_string())?;
+        let k0 = self.shape.curvature(s);
+        if !(k0.x.is_finite() && k0.y.is_finite() && k0.z.is_finite()) {
+            return Err(format!("the rest curvature is not finite at s = {s} m"));
+        }
+        Ok(LocalLaw { k0, compliance })
+    }
+
+    /// The law at `s`, SI. NaN where an expression gives no sound section: Newton then refuses the state.
+    pub fn law_at(&self, s: f64) -> LocalLaw {
+        self.try_law_at(s).unwrap_or_else(|_| LocalLaw {
+            k0: Vector3::repeat(f64::NAN),
+            compliance: Compliance::Diagonal([f64::NAN; 6]),
+        })
+    }
+
+    /// Distributed load at `s`, SI, gravity among it.
+    fn load_at(&self, s: f64) -> LoadSample {
+        let mut sample = LoadSample::default();
+        let at = |profiles: &[Profile; 3], into: &mut [f64; 3]| {
+            for (value, profile) in into.iter_mut().zip(profiles) {
+                *value += profile.value(s, self.length);
+            }
+        };
+        for load in &self.beam.distributed {
+            match load.axes {
+                LoadAxes::Global => {
+                    at(&load.force, &mut sample.dead_force);
+                    at(&load.moment, &mut sample.dead_moment);
+                }
+                LoadAxes::Section => {
+                    at(&load.force, &mut sample.section_force);
+                    at(&load.moment, &mut sample.section_moment);
+                }
+            }
+        }
+        if self.gravity != Vector3::zeros() {
+            let mass = mass_per_length(&self.section, self.material.as_ref(), s, self.length);
+            let mass = mass.unwrap_or(f64::NAN);
+            for i in 0..3 {
+                sample.dead_force[i] += mass * self.gravity[i];
+            }
+        }
+        sample
+    }
+
+    fn scaled_load(&self, s: f64) -> LoadSample {
+        let (per_force, per_moment) = (self.scale.length / self.scale.force, 1.0 / self.scale.force);
+        let load = self.load_at(s);
+        LoadSample {
+            dead_force: load.dead_force.map(|v| v * per_force),
+            dead_moment: load.dead_moment.map(|v| v * per_moment),
+            section_force: load.section_force.map(|v| v * per_force),
+            section_moment: load.section_moment.map(|v| v * per_moment),
+        }
+    }
+
+    /// The stretch from `a` to `b` (m) in equal steps, nondimensional. Nothing may be unsmooth inside.
+    pub fn piece(&self, a: f64, b: f64, steps: usize) -> Piece {
+        // Stay a hair inside, so that a jump at an end is seen from the piece's own side.
+        let inset = 1e-12 * (b - a);
+        let place = |i: usize| {
+            let x = ((i / STAGES) as f64 + NODES[i % STAGES]) / steps as f64;
+            (a + (b - a) * x).clamp(a + inset, b - inset)
+        };
+        let middle = 0.5 * (a + b);
+        let entries = |uniform: bool| if uniform { 1 } else { steps * STAGES };
+        let laws: Vec<LocalLaw> = (0..entries(self.uniform))
+            .map(|i| self.law_at(if self.uniform { middle } else { place(i) }))
+            .collect();
+        let loads = if self.loaded {
+            (0..entries(self.loads_uniform))
+                .map(|i| self.scaled_load(if self.loads_uniform { middle } else { place(i) }))
+                .collect()
+        } else {
+            Vec::new()
+        };
+        Piece { length: (b - a) / self.scale.length, steps, laws: self.table(&laws), loads }
+    }
+
+    fn table(&self, laws: &[LocalLaw]) -> LawTable {
+        let (length, force) = (self.scale.length, self.scale.force);
+        let (stretch, bend) = (force, force * length * length);
+        let k0 = |law: &LocalLaw| [law.k0.x * length, law.k0.y * length, law.k0.z * length];
+        if self.coupled {
+            return LawTable::Coupled(
+                laws.iter()
+                    .map(|law| {
+                        let c = law.compliance.to_matrix();
+                        let unit = |i: usize| if i < 3 { 1.0 } else { length };
+                        Coupled {
+                            k0: k0(law),
+                            compliance: std::array::from_fn(|i| {
+                                std::array::from_fn(|j| c[(i, j)] * force * unit(i) * unit(j))
+                            }),
+                        }
+                    })
+                    .collect(),
+            );
+        }
+        let diagonal = |law: &LocalLaw| {
+            let c = law.compliance.to_matrix();
+            (
+                [c[(0, 0)] * stretch, c[(1, 1)] * stretch, c[(2, 2)] * stretch],
+                [c[(3, 3)] * bend, c[(4, 4)] * bend, c[(5, 5)] * bend],
+            )
+        };
+        if self.beam.theory.shear {
+            LawTable::Shearable(
+                laws.iter()
+                    .map(|law| {
+                        let (shear, bend) = diagonal(law);
+                        Shearable { k0: k0(law), shear, bend }
+                    })
+                    .collect(),
+            )
+        } else {
+            LawTable::Slender(
+                laws.iter()
+                    .map(|law| {
+                        let (stretch, bend) = diagonal(law);
+                        Slender { k0: k0(law), stretch: stretch[0], bend }
+                    })
+                    .collect(),
+            )
+        }
+    }
+
+    /// Largest rest curvature between `a` and `b`, nondimensional.
+    pub fn rest_rate(&self, a: f64, b: f64) -> f64 {
+        if let Some(k0) = self.shape.uniform() {
+            return k0.norm() * self.scale.length;
+        }
+        let n = 16;
+        (0..=n)
+            .map(|i| self.shape.curvature(a + (b - a) * (i as f64 + 1e-9) / (n as f64 + 2e-9)).norm())
+            .fold(0.0, f64::max)
+            * self.scale.length
+    }
+
+    /// Largest of the compliances in bending and torsion, nondimensional.
+    pub fn soft(&self) -> f64 {
+        self.softest * self.scale.force * self.scale.length * self.scale.length
+    }
+}

@@ -1,0 +1,214 @@
+//! The coordinates of a joint or hold as unknowns: free, driven, sprung, limited.
+
+use crate::scale::Scale;
+use flexura_mechanics::joint::{Configuration, Joint, Kinematics, MAX_FREEDOMS};
+use flexura_model::{CoordinateLaw, Drive, JointKind, JointLaw};
+use flexura_spatial::{Pose, Twist, Vector3};
+
+/// A joint's kinematics with what acts on its coordinates, nondimensional.
+#[derive(Clone, Debug)]
+pub(crate) struct Coordinates {
+    pub joint: Joint,
+    pub kind: JointKind,
+    laws: Vec<CoordinateLaw>,
+    /// Configuration at rest.
+    pub initial: Configuration,
+    /// Indices of the coordinates that are found.
+    free: Vec<usize>,
+    /// A ball whose turning about one line (in M's axes) is held: the two lines left.
+    pub spin_held: Option<[Vector3<f64>; 2]>,
+    /// What to multiply each coordinate with to get its SI value.
+    pub unit: f64,
+}
+
+impl Coordinates {
+    pub fn new(law: &JointLaw, scale: &Scale, initial_pose: &Pose) -> Self {
+        let joint = Joint::new(law);
+        let length = if law.kind == JointKind::Prismatic { scale.length } else { 1.0 };
+        // Force along a length, or moment about an axis, and stiffness of either.
+        let effort = if law.kind == JointKind::Prismatic { scale.force } else { scale.moment() };
+        let laws: Vec<CoordinateLaw> = law
+            .coordinates
+            .iter()
+            .map(|c| CoordinateLaw {
+                drive: match c.drive {
+                    Drive::Free { effort: e } => Drive::Free { effort: e / effort },
+                    Drive::Driven { coordinate } => Drive::Driven { coordinate: coordinate / length },
+                },
+                stiffness: c.stiffness * length / effort,
+                rest: c.rest / length,
+                limits: c.limits.map(|l| flexura_model::Limits {
+                    range: l.range.map(|v| v / length),
+                    stiffness: l.stiffness.map(|k| k * length / effort),
+                }),
+            })
+            .collect();
+        let free =
+            (0..laws.len()).filter(|&i| matches!(laws[i].drive, Drive::Free { .. })).collect::<Vec<_>>();
+        Self {
+            kind: law.kind,
+            initial: joint.nearest(initial_pose),
+            joint,
+            laws,
+            free,
+            spin_held: None,
+            unit: length,
+        }
+    }
+
+    /// Number of unknown coordinates.
+    pub fn unknowns(&self) -> usize {
+        if self.spin_held.is_some() { 2 } else { self.free.len() }
+    }
+
+    /// Is nothing acting on the coordinates, and none driven?
+    pub fn is_plain(&self) -> bool {
+        self.laws.iter().all(|c| {
+            c.drive == Drive::Free { effort: 0.0 }
+                && c.stiffness == 0.0
+                && c.limits.is_none_or(|l| l.stiffness.is_none())
+        })
+    }
+
+    /// Column `i` of H for the unknown coordinates, in F's axes.
+    pub fn subspace(&self, configuration: &Configuration, i: usize) -> Twist {
+        match &self.spin_held {
+            Some(lines) => Twist {
+                angular: self.joint.pose(configuration).rotation * lines[i],
+                linear: Vector3::zeros(),
+            },
+            None => self.joint.subspace(configuration, self.free[i]),
+        }
+    }
+
+    pub fn moved(&self, configuration: &Configuration, step: &[f64]) -> Configuration {
+        let mut full = [0.0; MAX_FREEDOMS];
+        match &self.spin_held {
+            Some(lines) => {
+                let v = self.joint.pose(configuration).rotation * (lines[0] * step[0] + lines[1] * step[1]);
+                full = v.into();
+            }
+            None => {
+                for (i, s) in self.free.iter().zip(step) {
+                    full[*i] = *s;
+                }
+            }
+        }
+        self.joint.moved(configuration, &full)
+    }
+
+    pub fn step(&self, from: &Configuration, to: &Configuration, out: &mut [f64]) {
+        let full = self.joint.step(from, to);
+        match &self.spin_held {
+            Some(lines) => {
+                let local = self.joint.pose(from).rotation.inverse() * Vector3::from(full);
+                out[0] = lines[0].dot(&local);
+                out[1] = lines[1].dot(&local);
+            }
+            None => {
+                for (o, i) in out.iter_mut().zip(&self.free) {
+                    *o = full[*i];
+                }
+            }
+        }
+    }
+
+    /// The configuration with the driven coordinates at `load` times the way from rest to their values.
+    pub fn driven(&self, configuration: &Configuration, load: f64) -> Configuration {
+        if self.laws.iter().all(|c| matches!(c.drive, Drive::Free { .. })) {
+            return *configuration;
+        }
+        let start = self.joint.coordinates(&self.initial);
+        let mut q = self.joint.coordinates(configuration);
+        for (i, law) in self.laws.iter().enumerate() {
+            if let Drive::Driven { coordinate } = law.drive {
+                q[i] = start[i] + load * (coordinate - start[i]);
+            }
+        }
+        self.joint.configuration(&q[..self.laws.len()])
+    }
+
+    /// Efforts on the unknown coordinates along H, and their tangent: `τ = load effort - k (q - rest(load))`
+    /// plus the push of a limit. The rest value moves from the initial coordinate, so that rest is relaxed.
+    pub fn efforts(
+        &self,
+        configuration: &Configuration,
+        load: f64,
+    ) -> ([f64; MAX_FREEDOMS], [[f64; MAX_FREEDOMS]; MAX_FREEDOMS]) {
+        let q = self.joint.coordinates(configuration);
+        let start = self.joint.coordinates(&self.initial);
+        let (mut tau, mut slope) = ([0.0; MAX_FREEDOMS], [0.0; MAX_FREEDOMS]);
+        for (i, law) in self.laws.iter().enumerate() {
+            if let Drive::Free { effort } = law.drive {
+                let rest = start[i] + load * (law.rest - start[i]);
+                tau[i] = load * effort - law.stiffness * (q[i] - rest);
+                slope[i] = -law.stiffness;
+                if let Some((beyond, k)) = push(law, q[i]) {
+                    tau[i] -= k * beyond;
+                    slope[i] -= k;
+                }
+            }
+        }
+        let (value, tangent) = self.joint.generalised(configuration, &tau, &slope);
+        if self.spin_held.is_some() {
+            // Only a plain ball has its spin held: nothing acts on it.
+            return ([0.0; MAX_FREEDOMS], [[0.0; MAX_FREEDOMS]; MAX_FREEDOMS]);
+        }
+        let mut out = [0.0; MAX_FREEDOMS];
+        let mut d = [[0.0; MAX_FREEDOMS]; MAX_FREEDOMS];
+        for (a, &i) in self.free.iter().enumerate() {
+            out[a] = value[i];
+            for (b, &j) in self.free.iter().enumerate() {
+                d[a][b] = tangent[i][j];
+            }
+        }
+        (out, d)
+    }
+
+    /// ½ Σ k (q - rest)², nondimensional.
+    pub fn energy(&self, configuration: &Configuration) -> f64 {
+        let q = self.joint.coordinates(configuration);
+        self.laws
+            .iter()
+            .enumerate()
+            .filter(|(_, law)| matches!(law.drive, Drive::Free { .. }))
+            .map(|(i, law)| {
+                let limit = push(law, q[i]).map_or(0.0, |(beyond, k)| 0.5 * k * beyond * beyond);
+                0.5 * law.stiffness * (q[i] - law.rest).powi(2) + limit
+            })
+            .sum()
+    }
+
+    /// Coordinates that lie outside their limits: number, value and range, SI.
+    pub fn beyond_limits(&self, configuration: &Configuration) -> Vec<(usize, f64, [f64; 2])> {
+        let q = self.joint.coordinates(configuration);
+        self.laws
+            .iter()
+            .enumerate()
+            .filter_map(|(i, law)| {
+                let limits = law.limits?;
+                let outside = q[i] < limits.range[0] || q[i] > limits.range[1];
+                outside.then(|| (i, q[i] * self.unit, limits.range.map(|v| v * self.unit)))
+            })
+            .collect()
+    }
+
+    /// Coordinates as a user reads them, SI.
+    pub fn values(&self, configuration: &Configuration) -> Vec<f64> {
+        self.joint.coordinates(configuration)[..self.laws.len()].iter().map(|q| q * self.unit).collect()
+    }
+}
+
+/// How far `q` lies beyond a limit that pushes, and the stiffness of the push.
+fn push(law: &CoordinateLaw, q: f64) -> Option<(f64, f64)> {
+    let limits = law.limits?;
+    let stiffness = limits.stiffness?;
+    let beyond = if q < limits.range[0] {
+        q - limits.range[0]
+    } else if q > limits.range[1] {
+        q - limits.range[1]
+    } else {
+        return None;
+    };
+    Some((beyond, stiffness))
+}

@@ -1,0 +1,190 @@
+//! What the mechanism is made of, what is loose in it, and what is held twice.
+
+use crate::error::ProblemError;
+use crate::lower::NodeOrigin;
+use crate::system::Equilibrium;
+use flexura_nonlinear::{Breakdown, System};
+use nalgebra::DMatrix;
+
+/// What the model is: unknowns against equations.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Census {
+    /// What is unknown ("beam.link: wrench at its start") and how many numbers that is.
+    pub unknowns: Vec<(String, usize)>,
+    /// What must hold ("beam.link: clamp at its end") and how many equations that is.
+    pub equations: Vec<(String, usize)>,
+    /// Things a user should know.
+    pub warnings: Vec<String>,
+}
+
+/// Singular values below this part of the largest count as zero.
+const RANK: f64 = 1e-11;
+
+impl Equilibrium {
+    pub(crate) fn node_name(&self, node: usize) -> String {
+        match self.lowered.nodes[node].origin {
+            NodeOrigin::Body(i) => format!("body.{}", self.model.bodies[i].name),
+            NodeOrigin::Hub { beam, s } => {
+                format!("beam.{}[{}]", self.model.beams[beam].name, crate::lower::length_text(s))
+            }
+        }
+    }
+
+    fn span_name(&self, span: usize) -> String {
+        format!("beam.{}", self.model.beams[self.lowered.spans[span].beam].name)
+    }
+
+    /// Unknowns and equations by name.
+    pub fn census(&self) -> Census {
+        let mut census = Census { warnings: self.warnings().to_vec(), ..Census::default() };
+        let mut add = |unknown: String, equation: String, count: usize| {
+            if count > 0 {
+                census.unknowns.push((unknown, count));
+                census.equations.push((equation, count));
+            }
+        };
+        for node in 0..self.layout.nodes.len() {
+            let name = self.node_name(node);
+            add(format!("{name}: position and rotation"), format!("{name}: balance of force and moment"), 6);
+        }
+        for (i, slots) in self.layout.spans.iter().enumerate() {
+            let name = self.span_name(i);
+            let span = &self.lowered.spans[i];
+            add(
+                format!("{name}: coordinates of its start"),
+                format!("{name}: effort at its start"),
+                slots.start.count,
+            );
+            let wrench = if slots.wrench.count == 3 { "moment" } else { "force and moment" };
+            let end = match (&span.end, slots.wrench.count) {
+                (Some(_), _) => "position and rotation of its end".to_string(),
+                (None, 3) => "no moment beyond its free end".to_string(),
+                (None, _) => "no force and moment beyond its free end".to_string(),
+            };
+            add(format!("{name}: {wrench} at its start"), format!("{name}: {end}"), slots.wrench.count);
+            add(format!("{name}: coordinates of its end"), format!("{name}: effort at its end"), slots.end.count);
+        }
+        for (joint, slots) in self.model.joints.iter().zip(&self.layout.joints) {
+            let name = format!("joint.{}", joint.name);
+            add(format!("{name}: coordinates"), format!("{name}: effort on its coordinates"), slots.coordinates.count);
+            add(format!("{name}: force and moment"), format!("{name}: its two frames fit"), 6);
+        }
+        census
+    }
+
+    /// Checks at rest that nothing is loose and nothing is held twice.
+    ///
+    /// # Errors
+    /// Names the bodies and coordinates that can move without resistance, or the joints and ends whose
+    /// reactions cannot be told apart.
+    pub fn check_held(&mut self) -> Result<(), ProblemError> {
+        self.rest();
+        self.set_load(0.0);
+        match self.linearise() {
+            Ok(()) => Ok(()),
+            Err(Breakdown::Singular) => Err(self.explain_singular()),
+            Err(Breakdown::NotFinite) => Err(ProblemError::new(
+                "model",
+                "gives numbers that are not finite at rest",
+                "look for stiffnesses or lengths that are many orders of magnitude apart",
+            )),
+        }
+    }
+
+    /// The null space of the tangent, in the model's words.
+    pub(crate) fn explain_singular(&mut self) -> ProblemError {
+        // The factorised matrix is spoilt; evaluate it once more and leave it whole.
+        let _ = self.evaluate(true);
+        let n = self.layout.interface;
+        let matrix = DMatrix::from_fn(n, n, |i, j| self.tangent.row(i)[j]);
+        let svd = matrix.svd(false, true);
+        let Some(vt) = svd.v_t else { return unnamed() };
+        let largest = svd.singular_values.max();
+        let mut motion = vec![0.0_f64; n];
+        for (k, value) in svd.singular_values.iter().enumerate() {
+            if *value <= RANK * largest {
+                for j in 0..n {
+                    motion[j] = motion[j].max(vt[(k, j)].abs());
+                }
+            }
+        }
+        let part = |unknown: usize, count: usize| {
+            motion[unknown..unknown + count].iter().fold(0.0_f64, |m, v| m.max(*v))
+        };
+        const SEEN: f64 = 1e-6;
+        let mut loose = Vec::new();
+        for (i, slot) in self.layout.nodes.iter().enumerate() {
+            if part(slot.unknown, 6) > SEEN {
+                loose.push(self.node_name(i));
+            }
+        }
+        for (i, slots) in self.layout.spans.iter().enumerate() {
+            if slots.start.count > 0 && part(slots.start.unknown, slots.start.count) > SEEN {
+                loose.push(format!("{}.start", self.span_name(i)));
+            }
+            if slots.end.count > 0 && part(slots.end.unknown, slots.end.count) > SEEN {
+                loose.push(format!("{}.end", self.span_name(i)));
+            }
+        }
+        let mut twice = Vec::new();
+        for (joint, slots) in self.model.joints.iter().zip(&self.layout.joints) {
+            let count = slots.coordinates.count;
+            if count > 0 && part(slots.coordinates.unknown, count) > SEEN {
+                loose.push(format!("joint.{}", joint.name));
+            }
+            if part(slots.wrench.unknown, 6) > SEEN {
+                twice.push(format!("joint.{}", joint.name));
+            }
+        }
+        for (i, slots) in self.layout.spans.iter().enumerate() {
+            if part(slots.wrench.unknown, slots.wrench.count) > SEEN {
+                twice.push(self.span_name(i));
+            }
+        }
+        twice.dedup();
+        if !loose.is_empty() {
+            return ProblemError::new(
+                loose[0].clone(),
+                format!("can move without resistance: {}", loose.join(", ")),
+                "hold it with a beam, a joint to the ground or a spring, or give the joint a stiffness",
+            );
+        }
+        if !twice.is_empty() {
+            return ProblemError::new(
+                twice[0].clone(),
+                format!("over-constrained loop; the forces cannot be told apart of: {}", twice.join(", ")),
+                "free one of the joints, or let a beam of the loop stretch and bend",
+            );
+        }
+        unnamed()
+    }
+
+    /// Warnings about the state: coordinates beyond their limits, spins that needed holding.
+    pub(crate) fn state_warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for (joint, (lowered, slots)) in
+            self.model.joints.iter().zip(self.lowered.joints.iter().zip(&self.layout.joints))
+        {
+            let configuration = self.configuration(&slots.coordinates);
+            for (i, value, range) in lowered.coordinates.beyond_limits(&configuration) {
+                warnings.push(format!(
+                    "joint.{}: coordinate {} is {:.6}, outside its limits {:.6} to {:.6}",
+                    joint.name,
+                    i + 1,
+                    value,
+                    range[0],
+                    range[1]
+                ));
+            }
+        }
+        warnings
+    }
+}
+
+fn unnamed() -> ProblemError {
+    ProblemError::new(
+        "model",
+        "has no unique equilibrium at rest: its tangent has no inverse",
+        "look for something that is not held, or held twice",
+    )
+}

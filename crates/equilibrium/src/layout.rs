@@ -1,0 +1,137 @@
+//! Which numbers of the state and which unknowns belong to what.
+//!
+//! The unknowns come in two parts: first those of the interface (nodes, start wrenches and coordinates, the
+//! last inner state of each span, joints), then the inner states that block elimination removes. Equations
+//! use the same numbering: a node's balance stands at its pose, a span's closure at its start wrench, a
+//! coordinate's effort balance at the coordinate, a joint's closure at its wrench.
+
+use crate::coordinates::Coordinates;
+use crate::lower::Lowered;
+use crate::mesh::SpanMesh;
+
+/// Where a pose lies: seven numbers of the state, six unknowns (turning, shift).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PoseSlot {
+    pub state: usize,
+    pub unknown: usize,
+}
+
+/// Where joint coordinates lie: four numbers of the state, `count` unknowns.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CoordinateSlot {
+    pub state: usize,
+    pub unknown: usize,
+    pub count: usize,
+}
+
+/// Where a wrench lies: six numbers (force, moment) of the state; unknown are the last `count` of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WrenchSlot {
+    pub state: usize,
+    pub unknown: usize,
+    pub count: usize,
+}
+
+/// A state inside a span: pose and wrench, thirteen numbers of the state, twelve unknowns.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct InnerSlot {
+    pub state: usize,
+    pub unknown: usize,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct SpanSlots {
+    pub start: CoordinateSlot,
+    pub wrench: WrenchSlot,
+    pub end: CoordinateSlot,
+    /// One for each segment but the first; the last of them belongs to the interface.
+    pub inner: Vec<InnerSlot>,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct JointSlots {
+    pub coordinates: CoordinateSlot,
+    pub wrench: WrenchSlot,
+}
+
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Layout {
+    pub nodes: Vec<PoseSlot>,
+    pub spans: Vec<SpanSlots>,
+    pub joints: Vec<JointSlots>,
+    /// Unknowns of the interface.
+    pub interface: usize,
+    /// All unknowns.
+    pub unknowns: usize,
+    /// Numbers of the state.
+    pub state: usize,
+}
+
+struct Counter {
+    state: usize,
+    unknown: usize,
+}
+
+impl Counter {
+    fn take(&mut self, state: usize, unknowns: usize) -> (usize, usize) {
+        let at = (self.state, self.unknown);
+        self.state += state;
+        self.unknown += unknowns;
+        at
+    }
+
+    fn pose(&mut self) -> PoseSlot {
+        let (state, unknown) = self.take(7, 6);
+        PoseSlot { state, unknown }
+    }
+
+    fn coordinates(&mut self, coordinates: &Coordinates) -> CoordinateSlot {
+        let count = coordinates.unknowns();
+        let (state, unknown) = self.take(4, count);
+        CoordinateSlot { state, unknown, count }
+    }
+
+    fn wrench(&mut self, count: usize) -> WrenchSlot {
+        let (state, unknown) = self.take(6, count);
+        WrenchSlot { state, unknown, count }
+    }
+
+    fn inner(&mut self) -> InnerSlot {
+        let (state, unknown) = self.take(13, 12);
+        InnerSlot { state, unknown }
+    }
+}
+
+impl Layout {
+    pub fn new(lowered: &Lowered, meshes: &[SpanMesh]) -> Self {
+        let mut counter = Counter { state: 0, unknown: 0 };
+        let nodes = lowered.nodes.iter().map(|_| counter.pose()).collect();
+        let mut spans: Vec<SpanSlots> = Vec::with_capacity(lowered.spans.len());
+        for (span, mesh) in lowered.spans.iter().zip(meshes) {
+            let start = counter.coordinates(&span.start.coordinates);
+            let wrench = counter.wrench(if span.determinate { 3 } else { 6 });
+            let end = match &span.end {
+                Some(hold) => counter.coordinates(&hold.coordinates),
+                None => CoordinateSlot { state: counter.state, unknown: counter.unknown, count: 0 },
+            };
+            let last = if mesh.segments.len() > 1 { vec![counter.inner()] } else { Vec::new() };
+            spans.push(SpanSlots { start, wrench, end, inner: last });
+        }
+        let joints = lowered
+            .joints
+            .iter()
+            .map(|joint| JointSlots {
+                coordinates: counter.coordinates(&joint.coordinates),
+                wrench: counter.wrench(6),
+            })
+            .collect();
+        let interface = counter.unknown;
+        for (slots, mesh) in spans.iter_mut().zip(meshes) {
+            let eliminated = mesh.segments.len().saturating_sub(2);
+            let mut inner: Vec<InnerSlot> = (0..eliminated).map(|_| counter.inner()).collect();
+            inner.append(&mut slots.inner);
+            slots.inner = inner;
+        }
+        Self { nodes, spans, joints, interface, unknowns: counter.unknown, state: counter.state }
+    }
+}

@@ -1,0 +1,120 @@
+//! How finely a span is integrated and into how many shooting segments it is cut.
+//!
+//! Step length: one step of order eight turns a section by at most an angle that the wanted accuracy allows.
+//! Segments: what starts a segment grows along it by at most about `exp(GROWTH)`, so that no information is
+//! lost on the way; a short or softly loaded beam is one segment.
+
+use crate::beam::BeamLaw;
+use crate::lower::Span;
+use flexura_mechanics::rod::Piece;
+
+/// A smooth stretch, then the jumps at its end (positions in the span's list).
+#[derive(Clone, Debug)]
+pub(crate) struct Stretch {
+    pub s: [f64; 2],
+    pub piece: Piece,
+    pub jumps: Vec<usize>,
+}
+
+/// The mesh of one span.
+#[derive(Clone, Debug)]
+pub(crate) struct SpanMesh {
+    /// Jumps at the very start.
+    pub first_jumps: Vec<usize>,
+    pub segments: Vec<Vec<Stretch>>,
+}
+
+/// The largest force and moment met along a span, nondimensional: what sets rates.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Level {
+    pub force: f64,
+    pub moment: f64,
+}
+
+/// Exponent by which a segment may let its start grow.
+const GROWTH: f64 = 8.0;
+/// Error of one radian of turning in unit steps: with it, `error = CONSTANT * turning * step^8`.
+const CONSTANT: f64 = 2e-8;
+/// A step never turns a section further than this, however loose the accuracy.
+const LARGEST_TURN: f64 = 1.5;
+
+impl Level {
+    /// Turning per nondimensional length at this level: bending by the moment, and the rate √(F/EI) of the
+    /// exponentials and sines along a loaded beam.
+    fn rate(&self, law: &BeamLaw, a: f64, b: f64) -> f64 {
+        let soft = law.soft();
+        let bend = law.rest_rate(a, b) + self.moment * soft;
+        (bend * bend + self.force * soft).sqrt()
+    }
+
+    pub fn segments(&self, law: &BeamLaw, span: &Span) -> usize {
+        let length = (span.s[1] - span.s[0]) / law.scale.length;
+        let exponent = length * (self.force * law.soft()).sqrt();
+        ((exponent / GROWTH).ceil() as usize).clamp(1, 100_000)
+    }
+
+    /// Steps for a stretch to have an error of about `accuracy`.
+    pub fn steps(&self, law: &BeamLaw, s: [f64; 2], accuracy: f64) -> usize {
+        let turning = (s[1] - s[0]) / law.scale.length * self.rate(law, s[0], s[1]);
+        let turn = (accuracy / (CONSTANT * turning.max(1.0))).powf(0.125).min(LARGEST_TURN);
+        ((turning / turn).ceil() as usize).clamp(1, 10_000_000)
+    }
+}
+
+impl SpanMesh {
+    /// Cuts a span into `count` segments, each stretch into `steps(ends)` steps.
+    pub fn build(law: &BeamLaw, span: &Span, count: usize, steps: impl Fn([f64; 2]) -> usize) -> Self {
+        let [first, last] = span.s;
+        let tiny = 1e-12 * law.length;
+        let near = |a: f64, b: f64| (a - b).abs() <= tiny;
+        let ends: Vec<f64> = (1..=count)
+            .map(|i| if i == count { last } else { first + (last - first) * i as f64 / count as f64 })
+            .collect();
+        let mut cuts: Vec<f64> = law.breaks();
+        cuts.extend(span.jumps.iter().map(|j| j.s));
+        cuts.extend(&ends);
+        cuts.retain(|s| *s > first + tiny && *s <= last + tiny);
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup_by(|a, b| near(*a, *b));
+        let jumps_at = |s: f64| -> Vec<usize> {
+            (0..span.jumps.len()).filter(|&j| near(span.jumps[j].s, s)).collect()
+        };
+        let mut segments = vec![Vec::new()];
+        let mut a = first;
+        for b in cuts {
+            let s = [a, b];
+            let stretch = Stretch { s, piece: law.piece(a, b, steps(s)), jumps: jumps_at(b) };
+            if let Some(segment) = segments.last_mut() {
+                segment.push(stretch);
+            }
+            if ends.iter().any(|e| near(*e, b)) && !near(b, last) {
+                segments.push(Vec::new());
+            }
+            a = b;
+        }
+        Self { first_jumps: jumps_at(first), segments }
+    }
+
+    pub fn stretches(&self) -> impl Iterator<Item = &Stretch> {
+        self.segments.iter().flatten()
+    }
+
+    pub fn steps(&self) -> usize {
+        self.stretches().map(|s| s.piece.steps).sum()
+    }
+
+    /// Gives every stretch `steps(ends, present)` steps.
+    pub fn restep(&mut self, law: &BeamLaw, steps: impl Fn([f64; 2], usize) -> usize) {
+        for stretch in self.segments.iter_mut().flatten() {
+            let wanted = steps(stretch.s, stretch.piece.steps);
+            if wanted != stretch.piece.steps {
+                stretch.piece = law.piece(stretch.s[0], stretch.s[1], wanted);
+            }
+        }
+    }
+
+    /// Where segment `i` starts, m.
+    pub fn start_of(&self, i: usize) -> f64 {
+        self.segments[i][0].s[0]
+    }
+}

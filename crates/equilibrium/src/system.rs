@@ -1,0 +1,619 @@
+//! The prepared problem, and what `nonlinear` needs to solve it.
+
+use crate::beam::BeamLaw;
+use crate::coordinates::Coordinates;
+use crate::error::ProblemError;
+use crate::layout::{CoordinateSlot, Layout, PoseSlot};
+use crate::lower::{self, Lowered};
+use crate::mesh::{Level, SpanMesh};
+use crate::shooting::{Plain, SegmentEnd, carry_plain, jump};
+use flexura_mechanics::joint::Configuration;
+use flexura_model::{LoadId, LoadTarget, Model};
+use flexura_nonlinear::{BLOCK, Breakdown, Chain, Dense, System};
+use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, exp, log};
+
+/// A model made ready to be solved, again and again, from rest or from where it stands.
+#[derive(Clone, Debug)]
+pub struct Equilibrium {
+    pub(crate) model: Model,
+    pub(crate) lowered: Lowered,
+    pub(crate) meshes: Vec<SpanMesh>,
+    pub(crate) layout: Layout,
+    pub(crate) x: Vec<f64>,
+    pub(crate) load: f64,
+    /// Accuracy that the mesh is made for.
+    pub(crate) accuracy: f64,
+    /// Internal force at the start of each determinate span at full load.
+    pub(crate) known_force: Vec<Vector3<f64>>,
+    pub(crate) tangent: Dense,
+    pub(crate) chains: Vec<Chain>,
+    pub(crate) gaps: Vec<Vec<[f64; BLOCK]>>,
+    /// Residual of the interface equations.
+    pub(crate) r: Vec<f64>,
+    /// Ends of all segments of all spans, at the last evaluation.
+    pub(crate) ends: Vec<Vec<SegmentEnd>>,
+    pub(crate) levels: Vec<Level>,
+    weights: Vec<f64>,
+    scratch: Vec<f64>,
+    forced_segments: Option<usize>,
+    pub(crate) counts: Counts,
+}
+
+/// Work done since the state was last put at rest; counts, so that they repeat exactly.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Newton steps, full and simplified.
+    pub newton_steps: usize,
+    /// Tangents factorised.
+    pub factorisations: usize,
+    /// Residuals evaluated without a tangent.
+    pub residuals: usize,
+}
+
+/// Accuracy of the mesh on the way to the full load where only positions depend on it.
+const LOOSE: f64 = 1e-4;
+/// The same where a closure error turns into force.
+const SNUG: f64 = 1e-7;
+
+impl Equilibrium {
+    /// Prepares a model. The state is the mechanism at rest, unloaded.
+    ///
+    /// # Errors
+    /// A beam that is held nowhere, a rest shape or section without sound numbers.
+    pub fn new(model: &Model) -> Result<Self, ProblemError> {
+        let lowered = lower::lower(model)?;
+        let mut this = Self {
+            model: model.clone(),
+            meshes: Vec::new(),
+            layout: Layout::default(),
+            x: Vec::new(),
+            load: 0.0,
+            accuracy: LOOSE,
+            known_force: Vec::new(),
+            tangent: Dense::default(),
+            chains: Vec::new(),
+            gaps: Vec::new(),
+            r: Vec::new(),
+            ends: Vec::new(),
+            levels: Vec::new(),
+            weights: Vec::new(),
+            scratch: Vec::new(),
+            forced_segments: None,
+            counts: Counts::default(),
+            lowered,
+        };
+        this.rest();
+        Ok(this)
+    }
+
+    /// The model that it was made from.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Work done since the state was last put at rest.
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Warnings about the model.
+    pub fn warnings(&self) -> &[String] {
+        &self.lowered.warnings
+    }
+
+    /// Cuts every span into at least this many segments, whatever the loads; for benches and tests.
+    pub fn force_segments(&mut self, count: Option<usize>) {
+        self.forced_segments = count;
+        self.rest();
+    }
+
+    /// Changes a point load. The state stays, so that a solve can start from it.
+    pub fn set_point_load(&mut self, id: LoadId, force: Vector3<f64>, moment: Vector3<f64>) {
+        let load = &mut self.model[id];
+        load.force = force;
+        load.moment = moment;
+        let scaled = lower::point_load(&self.lowered.scale, force, moment, load.frame);
+        if let LoadTarget::Body { .. } = load.target {
+            for node in &mut self.lowered.nodes {
+                for (_, load, _) in node.loads.iter_mut().filter(|l| l.2 == Some(id.0)) {
+                    *load = scaled;
+                }
+            }
+        } else {
+            for span in &mut self.lowered.spans {
+                for j in span.jumps.iter_mut().filter(|j| j.source == Some(id.0)) {
+                    j.load = scaled;
+                }
+            }
+            for node in &mut self.lowered.nodes {
+                for (_, load, _) in node.loads.iter_mut().filter(|l| l.2 == Some(id.0)) {
+                    *load = scaled;
+                }
+            }
+        }
+        self.sum_known_forces();
+    }
+
+    /// Accuracy of the mesh while the load is raised.
+    pub(crate) fn path_accuracy(&self) -> f64 {
+        let closed = self.lowered.spans.iter().any(|span| span.end.is_some());
+        if closed { SNUG } else { LOOSE }
+    }
+
+    /// Puts the mechanism at rest: unloaded, every body where the model puts it.
+    pub fn rest(&mut self) {
+        self.load = 0.0;
+        self.counts = Counts::default();
+        self.accuracy = self.path_accuracy();
+        let first_time = self.meshes.is_empty();
+        self.levels = self.lowered.spans.iter().map(|span| self.expected_level(span)).collect();
+        let counts: Vec<usize> = (0..self.lowered.spans.len()).map(|_| self.forced_segments.unwrap_or(1)).collect();
+        let fits = !first_time && counts.iter().zip(&self.meshes).all(|(c, m)| *c == m.segments.len());
+        if fits {
+            self.restep(self.accuracy, false);
+        } else {
+            self.remesh(&counts);
+        }
+        self.x.clear();
+        self.x.resize(self.layout.state, 0.0);
+        for (node, slot) in self.lowered.nodes.iter().zip(&self.layout.nodes) {
+            write_pose(&mut self.x, slot.state, &node.initial);
+        }
+        for (span, slots) in self.lowered.spans.iter().zip(&self.layout.spans) {
+            self.x[slots.start.state..slots.start.state + 4].copy_from_slice(&span.start.coordinates.initial);
+            if let Some(end) = &span.end {
+                self.x[slots.end.state..slots.end.state + 4].copy_from_slice(&end.coordinates.initial);
+            }
+        }
+        for (joint, slots) in self.lowered.joints.iter().zip(&self.layout.joints) {
+            let at = slots.coordinates.state;
+            self.x[at..at + 4].copy_from_slice(&joint.coordinates.initial);
+        }
+        for i in 0..self.lowered.spans.len() {
+            let beam = self.lowered.spans[i].beam;
+            for k in 0..self.layout.spans[i].inner.len() {
+                let s = self.meshes[i].start_of(k + 1);
+                let local = self.lowered.scale.pose_in(&self.lowered.beams[beam].shape.pose(s));
+                let pose = self.lowered.beam_rest[beam] * local;
+                let at = self.layout.spans[i].inner[k].state;
+                write_pose(&mut self.x, at, &pose);
+            }
+        }
+    }
+
+    /// What the given loads lead one to expect along a span.
+    fn expected_level(&self, span: &lower::Span) -> Level {
+        let mut level = Level::default();
+        let law = &self.lowered.beams[span.beam];
+        for j in &span.jumps {
+            level.force += j.load.dead.force.norm() + j.load.follower.force.norm();
+            level.moment = level.moment.max((j.load.dead.moment + j.load.follower.moment).norm());
+        }
+        if law.is_loaded() {
+            let piece = law.piece(span.s[0], span.s[1], 1);
+            let total = |q: &[f64; 3]| Vector3::from(*q).norm() * piece.length;
+            level.force += piece.loads.iter().map(|l| total(&l.dead_force) + total(&l.section_force)).fold(0.0, f64::max);
+        }
+        level
+    }
+
+    fn remesh(&mut self, counts: &[usize]) {
+        let accuracy = self.accuracy;
+        self.meshes = self
+            .lowered
+            .spans
+            .iter()
+            .zip(counts)
+            .zip(&self.levels)
+            .map(|((span, &count), level)| {
+                let law = &self.lowered.beams[span.beam];
+                SpanMesh::build(law, span, count, |s| level.steps(law, s, accuracy))
+            })
+            .collect();
+        self.layout = Layout::new(&self.lowered, &self.meshes);
+        self.ends = self.meshes.iter().map(|m| vec![SegmentEnd::new(); m.segments.len()]).collect();
+        self.chains = vec![Chain::default(); self.meshes.len()];
+        self.gaps = self.meshes.iter().map(|m| vec![[0.0; BLOCK]; m.segments.len() - 1]).collect();
+        self.r = vec![0.0; self.layout.interface];
+        self.set_weights();
+        self.sum_known_forces();
+    }
+
+    /// Adapts the number of steps to the present levels; never fewer than now if `grow`.
+    pub(crate) fn restep(&mut self, accuracy: f64, grow: bool) {
+        self.accuracy = accuracy;
+        for ((span, mesh), level) in self.lowered.spans.iter().zip(&mut self.meshes).zip(&self.levels) {
+            let law: &BeamLaw = &self.lowered.beams[span.beam];
+            mesh.restep(law, |s, present| {
+                let wanted = level.steps(law, s, accuracy);
+                if grow { wanted.max(present) } else { wanted }
+            });
+        }
+        self.sum_known_forces();
+    }
+
+    /// Multiplies the number of steps of every stretch.
+    pub(crate) fn multiply_steps(&mut self, factor: f64) {
+        for (span, mesh) in self.lowered.spans.iter().zip(&mut self.meshes) {
+            let law: &BeamLaw = &self.lowered.beams[span.beam];
+            mesh.restep(law, |_, present| ((present as f64 * factor).ceil() as usize).max(present + 1));
+        }
+        self.sum_known_forces();
+    }
+
+    pub(crate) fn total_steps(&self) -> usize {
+        self.meshes.iter().map(SpanMesh::steps).sum()
+    }
+
+    /// The internal force at the start of determinate spans: the sum of the dead forces beyond. Distributed
+    /// force is summed with the stepper's own weights, so that it is what the stepper would find.
+    fn sum_known_forces(&mut self) {
+        self.known_force = self
+            .lowered
+            .spans
+            .iter()
+            .zip(&self.meshes)
+            .map(|(span, mesh)| {
+                let mut sum = Vector3::zeros();
+                if span.determinate {
+                    for j in &span.jumps {
+                        sum += j.load.dead.force;
+                    }
+                    for stretch in mesh.stretches() {
+                        sum += crate::accuracy::dead_force(&stretch.piece);
+                    }
+                }
+                sum
+            })
+            .collect();
+    }
+
+    fn set_weights(&mut self) {
+        self.weights = vec![1.0; self.layout.unknowns];
+        for (span, slots) in self.lowered.spans.iter().zip(&self.layout.spans) {
+            let law = &self.lowered.beams[span.beam];
+            let [force, moment] = law.wrench_unit;
+            let shorter = law.scale.length / law.length;
+            let w = &slots.wrench;
+            for i in 0..w.count {
+                let is_force = i + 6 - w.count < 3;
+                self.weights[w.unknown + i] = if is_force { 1.0 / force } else { 1.0 / moment };
+            }
+            for inner in &slots.inner {
+                for i in 0..3 {
+                    self.weights[inner.unknown + 3 + i] = shorter;
+                    self.weights[inner.unknown + 6 + i] = 1.0 / force;
+                    self.weights[inner.unknown + 9 + i] = 1.0 / moment;
+                }
+            }
+        }
+    }
+
+    /// Size of a correction that round-off alone may cause.
+    pub(crate) fn floor(&self) -> f64 {
+        let mut largest = 1.0_f64;
+        for (span, level) in self.lowered.spans.iter().zip(&self.levels) {
+            let [force, moment] = self.lowered.beams[span.beam].wrench_unit;
+            largest = largest.max(level.force / force).max(level.moment / moment);
+        }
+        2e-14 * largest
+    }
+
+    pub(crate) fn node_pose(&self, node: Option<usize>) -> Pose {
+        node.map_or(Pose::identity(), |n| read_pose(&self.x, self.layout.nodes[n].state))
+    }
+
+    pub(crate) fn configuration(&self, slot: &CoordinateSlot) -> Configuration {
+        std::array::from_fn(|i| self.x[slot.state + i])
+    }
+
+    pub(crate) fn triple(&self, at: usize) -> Vector3<f64> {
+        Vector3::new(self.x[at], self.x[at + 1], self.x[at + 2])
+    }
+
+    pub(crate) fn inner_state(&self, at: usize) -> Plain {
+        Plain {
+            rotation: std::array::from_fn(|i| self.x[at + i]),
+            position: std::array::from_fn(|i| self.x[at + 4 + i]),
+            force: std::array::from_fn(|i| self.x[at + 7 + i]),
+            moment: std::array::from_fn(|i| self.x[at + 10 + i]),
+            d: [[0.0; 1]; 12],
+        }
+    }
+
+    /// Is the determinant of the tangent positive? It changes sign at folds and branch points.
+    pub fn orientation(&self) -> bool {
+        self.chains.iter().fold(self.tangent.is_positive(), |sign, chain| {
+            if chain.eliminated() > 0 { sign == chain.is_positive() } else { sign }
+        })
+    }
+
+    /// The state at arc length `s` of a span, starting from the segment that holds it.
+    pub(crate) fn state_at(&self, span: usize, s: f64) -> Plain {
+        let mesh = &self.meshes[span];
+        let segment =
+            (0..mesh.segments.len()).rev().find(|&k| mesh.start_of(k) <= s).unwrap_or(0);
+        let jumps = &self.lowered.spans[span].jumps;
+        let mut state = if segment == 0 {
+            let mut head = self.head_state(span);
+            for &j in &mesh.first_jumps {
+                jump(&jumps[j], self.load, &mut head);
+            }
+            head
+        } else {
+            self.inner_state(self.layout.spans[span].inner[segment - 1].state)
+        };
+        let law = &self.lowered.beams[self.lowered.spans[span].beam];
+        for stretch in &mesh.segments[segment] {
+            if stretch.s[1] <= s {
+                carry_plain(std::slice::from_ref(stretch), jumps, self.load, &mut state);
+            } else {
+                let part = (s - stretch.s[0]) / (stretch.s[1] - stretch.s[0]);
+                if part > 0.0 {
+                    let steps = ((stretch.piece.steps as f64 * part).ceil() as usize).max(1);
+                    let piece = law.piece(stretch.s[0], s, steps);
+                    flexura_mechanics::rod::advance(&piece, self.load, &mut state);
+                }
+                break;
+            }
+        }
+        state
+    }
+
+    /// New segments where forces have grown; true if the state's layout changed.
+    fn resegment(&mut self) -> bool {
+        let counts: Vec<usize> = self
+            .lowered
+            .spans
+            .iter()
+            .zip(&self.levels)
+            .zip(&self.meshes)
+            .map(|((span, level), mesh)| {
+                let wanted = level.segments(&self.lowered.beams[span.beam], span);
+                let present = mesh.segments.len();
+                // A little more than needed, so that a growing force does not cut again at every step.
+                if wanted > present { (wanted * 3).div_ceil(2) } else { present }
+            })
+            .collect();
+        if counts.iter().zip(&self.meshes).all(|(c, m)| *c == m.segments.len()) {
+            return false;
+        }
+        let old = self.clone();
+        self.remesh(&counts);
+        self.x = vec![0.0; self.layout.state];
+        for (to, from) in self.layout.nodes.iter().zip(&old.layout.nodes) {
+            self.x[to.state..to.state + 7].copy_from_slice(&old.x[from.state..from.state + 7]);
+        }
+        for (to, from) in self.layout.joints.iter().zip(&old.layout.joints) {
+            copy(&mut self.x, to.coordinates.state, &old.x, from.coordinates.state, 4);
+            copy(&mut self.x, to.wrench.state, &old.x, from.wrench.state, 6);
+        }
+        for i in 0..self.layout.spans.len() {
+            let (to, from) = (&self.layout.spans[i], &old.layout.spans[i]);
+            copy(&mut self.x, to.start.state, &old.x, from.start.state, 4);
+            copy(&mut self.x, to.wrench.state, &old.x, from.wrench.state, 6);
+            if self.lowered.spans[i].end.is_some() {
+                copy(&mut self.x, to.end.state, &old.x, from.end.state, 4);
+            }
+            for k in 0..to.inner.len() {
+                let state = old.state_at(i, self.meshes[i].start_of(k + 1));
+                let at = self.layout.spans[i].inner[k].state;
+                self.x[at..at + 4].copy_from_slice(&state.rotation);
+                self.x[at + 4..at + 7].copy_from_slice(&state.position);
+                self.x[at + 7..at + 10].copy_from_slice(&state.force);
+                self.x[at + 10..at + 13].copy_from_slice(&state.moment);
+            }
+        }
+        true
+    }
+
+    /// Every joint and hold with where its configuration lies.
+    fn coordinate_slots(&self) -> impl Iterator<Item = (&Coordinates, &CoordinateSlot)> {
+        let holds = self.lowered.spans.iter().zip(&self.layout.spans).flat_map(|(span, slots)| {
+            let end = span.end.as_ref().map(|end| (&end.coordinates, &slots.end));
+            std::iter::once((&span.start.coordinates, &slots.start)).chain(end)
+        });
+        let joints = self
+            .lowered
+            .joints
+            .iter()
+            .zip(&self.layout.joints)
+            .map(|(joint, slots)| (&joint.coordinates, &slots.coordinates));
+        holds.chain(joints)
+    }
+
+    /// Runs of the state that are a pose (7 -> 6 unknowns): nodes and inner states.
+    fn pose_slots(&self) -> impl Iterator<Item = PoseSlot> {
+        let inner = self
+            .layout
+            .spans
+            .iter()
+            .flat_map(|s| s.inner.iter().map(|i| PoseSlot { state: i.state, unknown: i.unknown }));
+        self.layout.nodes.iter().copied().chain(inner)
+    }
+
+    /// Runs of the state that are plain numbers: (state, unknown, count).
+    fn number_slots(&self) -> impl Iterator<Item = (usize, usize, usize)> {
+        let wrenches = self
+            .layout
+            .spans
+            .iter()
+            .map(|s| s.wrench)
+            .chain(self.layout.joints.iter().map(|j| j.wrench))
+            .map(|w| (w.state + 6 - w.count, w.unknown, w.count));
+        let inner =
+            self.layout.spans.iter().flat_map(|s| s.inner.iter().map(|i| (i.state + 7, i.unknown + 6, 6)));
+        wrenches.chain(inner)
+    }
+}
+
+fn copy(to: &mut [f64], at: usize, from: &[f64], start: usize, count: usize) {
+    to[at..at + count].copy_from_slice(&from[start..start + count]);
+}
+
+pub(crate) fn read_pose(x: &[f64], at: usize) -> Pose {
+    Pose::new(
+        UnitQuaternion::from_quaternion(Quaternion::new(x[at], x[at + 1], x[at + 2], x[at + 3])),
+        Vector3::new(x[at + 4], x[at + 5], x[at + 6]),
+    )
+}
+
+pub(crate) fn write_pose(x: &mut [f64], at: usize, pose: &Pose) {
+    let q = pose.rotation.quaternion();
+    x[at..at + 4].copy_from_slice(&[q.w, q.i, q.j, q.k]);
+    x[at + 4..at + 7].copy_from_slice(pose.position.as_slice());
+}
+
+impl System for Equilibrium {
+    fn unknowns(&self) -> usize {
+        self.layout.unknowns
+    }
+
+    fn set_load(&mut self, fraction: f64) {
+        self.load = fraction;
+        let driven: Vec<(usize, Configuration)> = self
+            .coordinate_slots()
+            .filter(|(c, slot)| c.joint.freedoms() > slot.count)
+            .map(|(c, slot)| (slot.state, c.driven(&self.configuration(slot), fraction)))
+            .collect();
+        for (at, configuration) in driven {
+            self.x[at..at + 4].copy_from_slice(&configuration);
+        }
+    }
+
+    fn residual(&mut self) -> Result<(), Breakdown> {
+        self.counts.residuals += 1;
+        self.evaluate(false)
+    }
+
+    fn linearise(&mut self) -> Result<(), Breakdown> {
+        self.counts.factorisations += 1;
+        self.evaluate(true)?;
+        self.tangent.factorise()
+    }
+
+    fn newton_step(&mut self, step: &mut [f64]) {
+        self.counts.newton_steps += 1;
+        let n = self.layout.interface;
+        let mut rhs = std::mem::take(&mut self.scratch);
+        rhs.clear();
+        rhs.extend(self.r.iter().map(|r| -r));
+        for i in 0..self.chains.len() {
+            if let Some(last) = self.layout.spans[i].inner.last() {
+                let known = self.chains[i].reduce(&self.gaps[i]);
+                rhs[last.unknown..last.unknown + BLOCK].copy_from_slice(&known);
+            }
+        }
+        self.tangent.solve(&mut rhs);
+        step[..n].copy_from_slice(&rhs);
+        self.scratch = rhs;
+        for i in 0..self.chains.len() {
+            let inner = &self.layout.spans[i].inner;
+            if inner.len() < 2 {
+                continue;
+            }
+            let mut head = [0.0; crate::shooting::MAX_COLUMNS];
+            let count = self.head_unknowns(i, |k, unknown| head[k] = step[unknown]);
+            let last: [f64; BLOCK] = std::array::from_fn(|k| step[inner[inner.len() - 1].unknown + k]);
+            let mut states = vec![[0.0; BLOCK]; inner.len() - 1];
+            self.chains[i].back_substitute(&head[..count], &last, &mut states);
+            for (slot, state) in inner.iter().zip(&states) {
+                step[slot.unknown..slot.unknown + BLOCK].copy_from_slice(state);
+            }
+        }
+    }
+
+    fn retract(&mut self, step: &[f64]) {
+        let mut x = std::mem::take(&mut self.x);
+        for slot in self.pose_slots() {
+            let pose = read_pose(&x, slot.state);
+            let d = |i: usize| step[slot.unknown + i];
+            let moved = Pose::new(
+                exp(&Vector3::new(d(0), d(1), d(2))) * pose.rotation,
+                pose.position + Vector3::new(d(3), d(4), d(5)),
+            );
+            // Products drift from length one by round-off.
+            let unit = UnitQuaternion::new_normalize(*moved.rotation.quaternion());
+            write_pose(&mut x, slot.state, &Pose::new(unit, moved.position));
+        }
+        for (coordinates, slot) in self.coordinate_slots() {
+            if slot.count > 0 {
+                let from: Configuration = std::array::from_fn(|i| x[slot.state + i]);
+                let to = coordinates.moved(&from, &step[slot.unknown..slot.unknown + slot.count]);
+                x[slot.state..slot.state + 4].copy_from_slice(&to);
+            }
+        }
+        for (state, unknown, count) in self.number_slots() {
+            for i in 0..count {
+                x[state + i] += step[unknown + i];
+            }
+        }
+        self.x = x;
+    }
+
+    fn size(&self, step: &[f64]) -> f64 {
+        let mut largest = 0.0_f64;
+        for (s, w) in step.iter().zip(&self.weights) {
+            let size = s.abs() * w;
+            // `max` would hide a NaN.
+            if size > largest || size.is_nan() {
+                largest = size;
+            }
+        }
+        largest
+    }
+
+    fn turning(&self, step: &[f64]) -> f64 {
+        let mut largest = 0.0_f64;
+        for slot in self.pose_slots() {
+            let turn = Vector3::new(step[slot.unknown], step[slot.unknown + 1], step[slot.unknown + 2]);
+            largest = largest.max(turn.norm());
+        }
+        for (coordinates, slot) in self.coordinate_slots() {
+            if coordinates.joint.freedoms() == 3 {
+                let turn: f64 = step[slot.unknown..slot.unknown + slot.count].iter().map(|s| s * s).sum();
+                largest = largest.max(turn.sqrt());
+            }
+        }
+        largest
+    }
+
+    fn store(&self, state: &mut Vec<f64>) {
+        state.clear();
+        state.extend_from_slice(&self.x);
+    }
+
+    fn restore(&mut self, state: &[f64]) {
+        self.x.copy_from_slice(state);
+    }
+
+    fn difference(&self, from: &[f64], to: &[f64], step: &mut [f64]) {
+        for slot in self.pose_slots() {
+            let (a, b) = (read_pose(from, slot.state), read_pose(to, slot.state));
+            let turn = log(&(b.rotation * a.rotation.inverse()));
+            let shift = b.position - a.position;
+            for i in 0..3 {
+                step[slot.unknown + i] = turn[i];
+                step[slot.unknown + 3 + i] = shift[i];
+            }
+        }
+        for (coordinates, slot) in self.coordinate_slots() {
+            if slot.count > 0 {
+                let a: Configuration = std::array::from_fn(|i| from[slot.state + i]);
+                let b: Configuration = std::array::from_fn(|i| to[slot.state + i]);
+                coordinates.step(&a, &b, &mut step[slot.unknown..slot.unknown + slot.count]);
+            }
+        }
+        for (state, unknown, count) in self.number_slots() {
+            for i in 0..count {
+                step[unknown + i] = to[state + i] - from[state + i];
+            }
+        }
+    }
+
+    fn renew(&mut self) -> bool {
+        let changed = self.resegment();
+        self.restep(self.accuracy, true);
+        changed
+    }
+}

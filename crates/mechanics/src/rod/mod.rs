@@ -1,0 +1,9 @@
+//! The rod: how strain follows from the internal wrench, how the wrench balances, and how a rod's state is
+//! carried from one end of a piece to the other.
+
+pub mod balance;
+pub mod constitutive;
+pub mod propagate;
+
+pub use constitutive::{Coupled, Law, Shearable, Slender};
+pub use propagate::{LawTable, LoadSample, Piece, RodState, advance};

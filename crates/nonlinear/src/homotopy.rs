@@ -1,0 +1,233 @@
+//! The way from rest to the full load.
+//!
+//! The equilibrium that a user means is the one reached from rest under proportional load without passing a
+//! fold. So the load is raised in steps, and each step must prove that it stays on the path: the predicted
+//! point must lie close to the solution (a short first Newton correction) and Newton must contract at once
+//! (Deuflhard, *Newton Methods for Nonlinear Problems*, section 5.2). A step that fails is halved, so that
+//! Newton never jumps to another branch; a weak load passes both tests in one step. Prediction is by the
+//! polynomial through the last points, up to order three, and the step length follows from how well it did.
+
+use crate::{Breakdown, System};
+
+/// How carefully the path is followed.
+#[derive(Clone, Copy, Debug)]
+pub struct PathOptions {
+    /// Size of the first correction at which a step is refused.
+    pub largest_correction: f64,
+    /// Contraction of Newton at which a step is refused.
+    pub largest_contraction: f64,
+    /// Size of the correction at which a point of the path is good enough to go on from.
+    pub point_tolerance: f64,
+    /// Largest turning (rad) of a prediction.
+    pub largest_turning: f64,
+    /// Shortest step in the load fraction; shorter means that the path goes no further.
+    pub shortest_step: f64,
+    /// Most steps, taken and refused.
+    pub steps: usize,
+}
+
+impl Default for PathOptions {
+    fn default() -> Self {
+        Self {
+            largest_correction: 0.5,
+            largest_contraction: 0.4,
+            point_tolerance: 3e-3,
+            largest_turning: 1.0,
+            shortest_step: 1e-7,
+            steps: 5000,
+        }
+    }
+}
+
+/// Where the path ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PathEnd {
+    /// At the full load.
+    Complete,
+    /// Before it: no shorter step was possible.
+    Stalled {
+        /// Load fraction reached.
+        load: f64,
+    },
+    /// Before it: too many steps.
+    StepLimit {
+        /// Load fraction reached.
+        load: f64,
+    },
+    /// The tangent has no inverse at rest.
+    SingularAtRest,
+}
+
+/// One try at a point of the path.
+enum Try {
+    Good { first: f64 },
+    Far { first: f64 },
+    NotContracting,
+    Broken,
+}
+
+/// Counts of a path.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PathWork {
+    /// Steps taken.
+    pub taken: usize,
+    /// Steps refused.
+    pub refused: usize,
+}
+
+struct Point {
+    load: f64,
+    state: Vec<f64>,
+}
+
+/// Leads `system` from its solution at load 0, where its state must be, to load 1.
+///
+/// `progress(load, steps)` is called at each point reached.
+pub fn follow(
+    system: &mut impl System,
+    options: &PathOptions,
+    progress: &mut dyn FnMut(f64, usize),
+) -> (PathEnd, PathWork) {
+    let n = system.unknowns();
+    let mut step = vec![0.0; n];
+    let mut work = PathWork::default();
+    let mut points: Vec<Point> = Vec::with_capacity(4);
+    points.push(Point { load: 0.0, state: snapshot(system) });
+
+    // At rest the residual is proportional to the load, so one tangent tells how far the first step may go.
+    system.set_load(1.0);
+    let mut width = match system.linearise() {
+        Ok(()) => {
+            system.newton_step(&mut step);
+            let whole = system.size(&step);
+            if !whole.is_finite() {
+                return (PathEnd::SingularAtRest, work);
+            }
+            (0.8 * options.largest_correction / whole).min(1.0)
+        }
+        Err(Breakdown::Singular) => return (PathEnd::SingularAtRest, work),
+        Err(Breakdown::NotFinite) => 1e-3,
+    };
+
+    while work.taken + work.refused < options.steps {
+        let last = points[points.len() - 1].load;
+        if last >= 1.0 {
+            return (PathEnd::Complete, work);
+        }
+        let mut load = (last + width).min(1.0);
+        let order = points.len() - 1;
+        if order > 0 {
+            // A prediction must not turn anything so far that the turning becomes ambiguous.
+            for _ in 0..60 {
+                predict(system, &points, load, &mut step);
+                let turning = system.turning(&step);
+                if turning <= options.largest_turning {
+                    break;
+                }
+                load = last + (load - last) * (0.9 * options.largest_turning / turning).clamp(0.2, 0.95);
+            }
+            system.restore(&points[order].state);
+            system.retract(&step);
+        }
+        width = load - last;
+        system.set_load(load);
+        let growth = match try_point(system, options, &mut step) {
+            Try::Good { first } => {
+                work.taken += 1;
+                if system.renew() {
+                    points.clear();
+                } else if points.len() == 4 {
+                    points.remove(0);
+                }
+                points.push(Point { load, state: snapshot(system) });
+                progress(load, work.taken);
+                let aim = 0.5 * options.largest_correction;
+                width * (aim / first.max(1e-12)).powf(1.0 / (order + 1) as f64).clamp(0.3, 6.0)
+            }
+            Try::Far { first } => {
+                work.refused += 1;
+                width * (0.5 * options.largest_correction / first).powf(1.0 / (order + 1) as f64).clamp(0.1, 0.6)
+            }
+            Try::NotContracting | Try::Broken => {
+                work.refused += 1;
+                0.4 * width
+            }
+        };
+        width = growth;
+        let reached = &points[points.len() - 1];
+        if reached.load < 1.0 && width < options.shortest_step {
+            let load = reached.load;
+            system.set_load(load);
+            system.restore(&reached.state);
+            return (PathEnd::Stalled { load }, work);
+        }
+        if reached.load < load {
+            system.restore(&reached.state);
+        }
+    }
+    let reached = &points[points.len() - 1];
+    system.set_load(reached.load);
+    system.restore(&reached.state);
+    (PathEnd::StepLimit { load: reached.load }, work)
+}
+
+fn snapshot(system: &impl System) -> Vec<f64> {
+    let mut state = Vec::new();
+    system.store(&mut state);
+    state
+}
+
+/// The step from the last point to the value at `load` of the polynomial through all points.
+fn predict(system: &impl System, points: &[Point], load: f64, step: &mut [f64]) {
+    let last = &points[points.len() - 1];
+    let mut towards = vec![0.0; step.len()];
+    step.fill(0.0);
+    for (i, point) in points[..points.len() - 1].iter().enumerate() {
+        // Lagrange's weight of this point; the last point is the origin and adds nothing.
+        let weight: f64 = points
+            .iter()
+            .enumerate()
+            .filter(|(j, _)| *j != i)
+            .map(|(_, other)| (load - other.load) / (point.load - other.load))
+            .product();
+        system.difference(&last.state, &point.state, &mut towards);
+        for (out, t) in step.iter_mut().zip(&towards) {
+            *out += weight * t;
+        }
+    }
+}
+
+fn try_point(system: &mut impl System, options: &PathOptions, step: &mut [f64]) -> Try {
+    let mut first = None;
+    for _ in 0..4 {
+        if system.linearise().is_err() {
+            return Try::Broken;
+        }
+        system.newton_step(step);
+        let before = system.size(step);
+        let first = *first.get_or_insert(before);
+        if !before.is_finite() || first > options.largest_correction {
+            return Try::Far { first: if before.is_finite() { first } else { 1e3 } };
+        }
+        system.retract(step);
+        if before <= 0.1 * options.point_tolerance {
+            return Try::Good { first };
+        }
+        if system.residual().is_err() {
+            return Try::Broken;
+        }
+        system.newton_step(step);
+        let after = system.size(step);
+        if !(after <= options.largest_contraction * before) {
+            return Try::NotContracting;
+        }
+        system.retract(step);
+        if after <= options.point_tolerance {
+            return Try::Good { first };
+        }
+    }
+    Try::NotContracting
+}
+
+#[cfg(test)]
+mod tests;

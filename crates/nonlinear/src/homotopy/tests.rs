@@ -1,0 +1,89 @@
+use super::*;
+use crate::{NewtonEnd, NewtonOptions, converge};
+
+/// One unknown: r = f(x) - λ b.
+struct Scalar {
+    x: f64,
+    load: f64,
+    goal: f64,
+    f: fn(f64) -> (f64, f64),
+    r: f64,
+    slope: f64,
+}
+
+impl Scalar {
+    fn new(goal: f64, f: fn(f64) -> (f64, f64)) -> Self {
+        Self { x: 0.0, load: 0.0, goal, f, r: 0.0, slope: 1.0 }
+    }
+}
+
+impl System for Scalar {
+    fn unknowns(&self) -> usize {
+        1
+    }
+    fn set_load(&mut self, fraction: f64) {
+        self.load = fraction;
+    }
+    fn residual(&mut self) -> Result<(), Breakdown> {
+        self.r = (self.f)(self.x).0 - self.load * self.goal;
+        if self.r.is_finite() { Ok(()) } else { Err(Breakdown::NotFinite) }
+    }
+    fn linearise(&mut self) -> Result<(), Breakdown> {
+        self.slope = (self.f)(self.x).1;
+        self.residual()?;
+        if self.slope == 0.0 { Err(Breakdown::Singular) } else { Ok(()) }
+    }
+    fn newton_step(&mut self, step: &mut [f64]) {
+        step[0] = -self.r / self.slope;
+    }
+    fn retract(&mut self, step: &[f64]) {
+        self.x += step[0];
+    }
+    fn size(&self, step: &[f64]) -> f64 {
+        step[0].abs()
+    }
+    fn turning(&self, _: &[f64]) -> f64 {
+        0.0
+    }
+    fn store(&self, state: &mut Vec<f64>) {
+        state.clear();
+        state.push(self.x);
+    }
+    fn restore(&mut self, state: &[f64]) {
+        self.x = state[0];
+    }
+    fn difference(&self, from: &[f64], to: &[f64], step: &mut [f64]) {
+        step[0] = to[0] - from[0];
+    }
+    fn renew(&mut self) -> bool {
+        false
+    }
+}
+
+#[test]
+fn newton_shortens_its_step_where_the_full_one_diverges() {
+    // The full Newton step for atan diverges from |x| > 1.3917.
+    let mut system = Scalar::new(0.0, |x| (x.atan(), 1.0 / (1.0 + x * x)));
+    system.x = 20.0;
+    let end = converge(&mut system, &NewtonOptions { tolerance: 1e-13, iterations: 50 });
+    assert!(matches!(end, NewtonEnd::Converged { .. }), "{end:?}");
+    assert!(system.x.abs() < 1e-13);
+}
+
+#[test]
+fn a_path_without_a_fold_reaches_the_full_load() {
+    let mut system = Scalar::new(1e4, |x| (x + x * x * x, 1.0 + 3.0 * x * x));
+    let (end, _) = follow(&mut system, &PathOptions::default(), &mut |_, _| {});
+    assert_eq!(end, PathEnd::Complete);
+    assert!((system.x + system.x.powi(3) - 1e4).abs() < 1e-2 * 1e4);
+}
+
+#[test]
+fn a_path_stops_at_a_fold_and_does_not_jump_over_it() {
+    // x - x³/3 folds at x = 1 with f = 2/3; beyond it only the far branch x < -1 solves f = 0.8.
+    let mut system = Scalar::new(0.8, |x| (x - x * x * x / 3.0, 1.0 - x * x));
+    let (end, _) = follow(&mut system, &PathOptions::default(), &mut |_, _| {});
+    let PathEnd::Stalled { load } = end else { panic!("{end:?}") };
+    assert!((load * 0.8 - 2.0 / 3.0).abs() < 1e-4, "stopped at {load}");
+    assert!(system.x > 0.9 && system.x < 1.001);
+}

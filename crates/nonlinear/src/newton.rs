@@ -1,0 +1,114 @@
+//! Newton's method at a fixed load, with a step rule that cannot accept a worse point.
+//!
+//! The natural monotonicity test (P. Deuflhard, *Newton Methods for Nonlinear Problems*, section 3.3): a step
+//! is accepted only if the simplified Newton correction after it, -J⁻¹ r(x + α d) with the old J, is shorter
+//! than the step was. It does not depend on how equations are scaled. Where the contraction is fast the
+//! old factorisation serves on, so that most iterations cost a residual only.
+
+use crate::{Breakdown, System};
+
+/// When to stop.
+#[derive(Clone, Copy, Debug)]
+pub struct NewtonOptions {
+    /// Size of the last correction.
+    pub tolerance: f64,
+    /// Most corrections.
+    pub iterations: usize,
+}
+
+/// How it ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NewtonEnd {
+    /// The last correction was below the tolerance; it has been applied.
+    Converged {
+        /// Size of that correction.
+        correction: f64,
+        /// Largest contraction of a full step after which the tangent was renewed.
+        contraction: f64,
+    },
+    /// No step along the Newton direction leads to a better point.
+    NoDescent,
+    /// Too many corrections.
+    IterationLimit,
+    /// The residual or tangent could not be had.
+    Broken(Breakdown),
+}
+
+/// Contraction up to which the old factorisation is used on.
+const FAST: f64 = 0.1;
+/// Smallest step factor.
+const SMALLEST: f64 = 1.0 / 256.0;
+
+/// Brings the state of `system` to a solution. On failure the state is the best that was reached.
+pub fn converge(system: &mut impl System, options: &NewtonOptions) -> NewtonEnd {
+    let n = system.unknowns();
+    let (mut step, mut next) = (vec![0.0; n], vec![0.0; n]);
+    let mut kept = Vec::new();
+    let mut worst = 0.0_f64;
+    if let Err(breakdown) = system.linearise() {
+        return NewtonEnd::Broken(breakdown);
+    }
+    system.newton_step(&mut step);
+    let mut size = system.size(&step);
+    let mut fresh = true;
+    let mut factor = 1.0;
+    for _ in 0..options.iterations {
+        if !size.is_finite() {
+            return NewtonEnd::Broken(Breakdown::NotFinite);
+        }
+        if size <= options.tolerance {
+            system.retract(&step);
+            return NewtonEnd::Converged { correction: size, contraction: worst };
+        }
+        system.store(&mut kept);
+        loop {
+            for (to, from) in next.iter_mut().zip(&step) {
+                *to = factor * from;
+            }
+            system.retract(&next);
+            let after = match system.residual() {
+                Ok(()) => {
+                    system.newton_step(&mut next);
+                    system.size(&next)
+                }
+                Err(_) => f64::INFINITY,
+            };
+            if after <= (1.0 - 0.25 * factor) * size {
+                let contraction = after / size;
+                if fresh && factor == 1.0 {
+                    worst = worst.max(contraction);
+                }
+                if factor == 1.0 && (contraction < FAST || after <= options.tolerance) {
+                    std::mem::swap(&mut step, &mut next);
+                    size = after;
+                    fresh = false;
+                } else {
+                    if let Err(breakdown) = system.linearise() {
+                        return NewtonEnd::Broken(breakdown);
+                    }
+                    system.newton_step(&mut step);
+                    size = system.size(&step);
+                    fresh = true;
+                    factor = (2.0 * factor).min(1.0);
+                }
+                break;
+            }
+            system.restore(&kept);
+            if !fresh {
+                // The old tangent has served its time; renew it before any shortening.
+                if let Err(breakdown) = system.linearise() {
+                    return NewtonEnd::Broken(breakdown);
+                }
+                system.newton_step(&mut step);
+                size = system.size(&step);
+                fresh = true;
+                break;
+            }
+            factor *= 0.5;
+            if factor < SMALLEST {
+                return NewtonEnd::NoDescent;
+            }
+        }
+    }
+    NewtonEnd::IterationLimit
+}

@@ -1,0 +1,54 @@
+//! What a system of equations must be able to do.
+
+/// Why a residual or tangent could not be had.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Breakdown {
+    /// A number overflowed: the state is far from any solution.
+    NotFinite,
+    /// The tangent has no inverse.
+    Singular,
+}
+
+/// A square system r(x; λ) = 0 on a manifold, with a load fraction λ that leads from a known solution at
+/// λ = 0 to the wanted one at λ = 1.
+///
+/// The system keeps its state x, its last residual and its last factorised tangent J. Steps are vectors in
+/// the tangent space; they are nondimensional, so that 1 is a large change.
+pub trait System {
+    /// Number of unknowns and of equations.
+    fn unknowns(&self) -> usize;
+
+    /// Sets λ.
+    fn set_load(&mut self, fraction: f64);
+
+    /// Evaluates r at the present state.
+    fn residual(&mut self) -> Result<(), Breakdown>;
+
+    /// Evaluates r and J at the present state, and factorises J.
+    fn linearise(&mut self) -> Result<(), Breakdown>;
+
+    /// `step = -J⁻¹ r` with the last residual and the last tangent, which may be of different states.
+    fn newton_step(&mut self, step: &mut [f64]);
+
+    /// Moves the state along `step`.
+    fn retract(&mut self, step: &[f64]);
+
+    /// The size of a step: the largest scaled change.
+    fn size(&self, step: &[f64]) -> f64;
+
+    /// The largest turning (rad) in a step; what lies beyond π cannot be told from its complement.
+    fn turning(&self, step: &[f64]) -> f64;
+
+    /// Copies the state out.
+    fn store(&self, state: &mut Vec<f64>);
+
+    /// Puts a stored state back.
+    fn restore(&mut self, state: &[f64]);
+
+    /// The step that leads from one stored state to another.
+    fn difference(&self, from: &[f64], to: &[f64], step: &mut [f64]);
+
+    /// Called where a point of the path is reached: lets the system renew its discretisation there. True if
+    /// states stored before no longer fit.
+    fn renew(&mut self) -> bool;
+}
