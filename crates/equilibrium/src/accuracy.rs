@@ -118,6 +118,12 @@ impl Equilibrium {
         own.map(|(_, r)| r.abs()).chain(gaps.map(|g| g.abs())).fold(0.0, f64::max)
     }
 
+    /// Position of the far end of the last span at the last evaluation, m.
+    pub fn tip(&self) -> Vector3<f64> {
+        let last = self.ends.last().and_then(|ends| ends.last());
+        last.map_or(Vector3::zeros(), |end| pose_of(&end.state).position * self.lowered.scale.length)
+    }
+
     /// Integration steps of the present mesh, over all beams.
     pub fn integration_steps(&self) -> usize {
         self.total_steps()

@@ -24,6 +24,8 @@ mod mesh;
 mod scale;
 mod shooting;
 mod system;
+#[cfg(test)]
+mod tests;
 
 pub use accuracy::Finish;
 pub use diagnose::Census;

@@ -321,13 +321,6 @@ impl Equilibrium {
         }
     }
 
-    /// Is the determinant of the tangent positive? It changes sign at folds and branch points.
-    pub fn orientation(&self) -> bool {
-        self.chains.iter().fold(self.tangent.is_positive(), |sign, chain| {
-            if chain.eliminated() > 0 { sign == chain.is_positive() } else { sign }
-        })
-    }
-
     /// The state at arc length `s` of a span, starting from the segment that holds it.
     pub(crate) fn state_at(&self, span: usize, s: f64) -> Plain {
         let mesh = &self.meshes[span];
@@ -490,6 +483,12 @@ impl System for Equilibrium {
         self.counts.factorisations += 1;
         self.evaluate(true)?;
         self.tangent.factorise()
+    }
+
+    fn orientation(&self) -> bool {
+        self.chains.iter().fold(self.tangent.is_positive(), |sign, chain| {
+            if chain.eliminated() > 0 { sign == chain.is_positive() } else { sign }
+        })
     }
 
     fn newton_step(&mut self, step: &mut [f64]) {

@@ -12,6 +12,8 @@ use crate::{Breakdown, System};
 /// How carefully the path is followed.
 #[derive(Clone, Copy, Debug)]
 pub struct PathOptions {
+    /// Size of the linear response that the first step may have.
+    pub first_response: f64,
     /// Size of the first correction at which a step is refused.
     pub largest_correction: f64,
     /// Contraction of Newton at which a step is refused.
@@ -22,6 +24,9 @@ pub struct PathOptions {
     pub largest_turning: f64,
     /// Shortest step in the load fraction; shorter means that the path goes no further.
     pub shortest_step: f64,
+    /// Below this step in the load fraction a change of sign of det J is taken for a branch point that the path
+    /// really passes; above, for a step that has left the path.
+    pub crossing_step: f64,
     /// Most steps, taken and refused.
     pub steps: usize,
 }
@@ -29,11 +34,13 @@ pub struct PathOptions {
 impl Default for PathOptions {
     fn default() -> Self {
         Self {
-            largest_correction: 0.5,
+            first_response: 0.8,
+            largest_correction: 0.7,
             largest_contraction: 0.4,
-            point_tolerance: 3e-3,
+            point_tolerance: 1e-2,
             largest_turning: 1.0,
             shortest_step: 1e-7,
+            crossing_step: 1e-5,
             steps: 5000,
         }
     }
@@ -64,6 +71,7 @@ enum Try {
     Far { first: f64 },
     NotContracting,
     Broken,
+    Crossed,
 }
 
 /// Counts of a path.
@@ -94,20 +102,13 @@ pub fn follow(
     let mut points: Vec<Point> = Vec::with_capacity(4);
     points.push(Point { load: 0.0, state: snapshot(system) });
 
-    // At rest the residual is proportional to the load, so one tangent tells how far the first step may go.
-    system.set_load(1.0);
-    let mut width = match system.linearise() {
-        Ok(()) => {
-            system.newton_step(&mut step);
-            let whole = system.size(&step);
-            if !whole.is_finite() {
-                return (PathEnd::SingularAtRest, work);
-            }
-            (0.8 * options.largest_correction / whole).min(1.0)
-        }
-        Err(Breakdown::Singular) => return (PathEnd::SingularAtRest, work),
-        Err(Breakdown::NotFinite) => 1e-3,
+    // The response to a small part of the load is the tangent of the path at rest.
+    let mut response = vec![0.0; n];
+    let mut orientation = match rest_response(system, &mut step, &mut response) {
+        Some(orientation) => orientation,
+        None => return (PathEnd::SingularAtRest, work),
     };
+    let mut width = (options.first_response / system.size(&response)).min(1.0);
 
     while work.taken + work.refused < options.steps {
         let last = points[points.len() - 1].load;
@@ -115,23 +116,35 @@ pub fn follow(
             return (PathEnd::Complete, work);
         }
         let mut load = (last + width).min(1.0);
-        let order = points.len() - 1;
-        if order > 0 {
-            // A prediction must not turn anything so far that the turning becomes ambiguous.
-            for _ in 0..60 {
+        let at_rest = last == 0.0;
+        // The polynomial through the points, or the tangent at rest, is exact to this power of the step.
+        let order = if at_rest { 1 } else { points.len() - 1 };
+        // A prediction must not turn anything so far that the turning becomes ambiguous.
+        for _ in 0..60 {
+            if at_rest {
+                step.iter_mut().zip(&response).for_each(|(s, r)| *s = load * r);
+            } else {
                 predict(system, &points, load, &mut step);
-                let turning = system.turning(&step);
-                if turning <= options.largest_turning {
-                    break;
-                }
-                load = last + (load - last) * (0.9 * options.largest_turning / turning).clamp(0.2, 0.95);
             }
-            system.restore(&points[order].state);
-            system.retract(&step);
+            let turning = system.turning(&step);
+            if turning <= options.largest_turning {
+                break;
+            }
+            load = last + (load - last) * (0.9 * options.largest_turning / turning).clamp(0.2, 0.95);
         }
+        system.restore(&points[points.len() - 1].state);
+        system.retract(&step);
         width = load - last;
         system.set_load(load);
-        let growth = match try_point(system, options, &mut step) {
+        let mut outcome = try_point(system, options, &mut step);
+        if matches!(outcome, Try::Good { .. }) && system.orientation() != orientation {
+            if width > options.crossing_step {
+                outcome = Try::Crossed;
+            } else {
+                orientation = system.orientation();
+            }
+        }
+        let growth = match outcome {
             Try::Good { first } => {
                 work.taken += 1;
                 if system.renew() {
@@ -148,7 +161,7 @@ pub fn follow(
                 work.refused += 1;
                 width * (0.5 * options.largest_correction / first).powf(1.0 / (order + 1) as f64).clamp(0.1, 0.6)
             }
-            Try::NotContracting | Try::Broken => {
+            Try::NotContracting | Try::Broken | Try::Crossed => {
                 work.refused += 1;
                 0.4 * width
             }
@@ -169,6 +182,21 @@ pub fn follow(
     system.set_load(reached.load);
     system.restore(&reached.state);
     (PathEnd::StepLimit { load: reached.load }, work)
+}
+
+/// The tangent of the path at rest, and the sign of det J there. None where J has no inverse.
+fn rest_response(system: &mut impl System, step: &mut [f64], response: &mut [f64]) -> Option<bool> {
+    const PART: f64 = 1e-4;
+    system.set_load(0.0);
+    system.linearise().ok()?;
+    system.newton_step(step);
+    system.set_load(PART);
+    system.residual().ok()?;
+    system.newton_step(response);
+    for (r, s) in response.iter_mut().zip(step.iter()) {
+        *r = (*r - s) / PART;
+    }
+    system.size(response).is_finite().then(|| system.orientation())
 }
 
 fn snapshot(system: &impl System) -> Vec<f64> {

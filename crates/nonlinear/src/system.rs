@@ -27,6 +27,9 @@ pub trait System {
     /// Evaluates r and J at the present state, and factorises J.
     fn linearise(&mut self) -> Result<(), Breakdown>;
 
+    /// The sign of det J at the last tangent. It changes where a path passes a fold or a branch point.
+    fn orientation(&self) -> bool;
+
     /// `step = -J⁻¹ r` with the last residual and the last tangent, which may be of different states.
     fn newton_step(&mut self, step: &mut [f64]);
 

@@ -71,6 +71,11 @@ impl Prepared {
         &mut self.problem
     }
 
+    /// How carefully the path from rest is followed.
+    pub fn path_options(&mut self) -> &mut PathOptions {
+        &mut self.path
+    }
+
     /// Changes a point load (N, N·m).
     pub fn set_point_load(&mut self, id: LoadId, force: Vector3<f64>, moment: Vector3<f64>) {
         self.problem.set_point_load(id, force, moment);

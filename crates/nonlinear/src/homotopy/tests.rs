@@ -33,6 +33,9 @@ impl System for Scalar {
         self.residual()?;
         if self.slope == 0.0 { Err(Breakdown::Singular) } else { Ok(()) }
     }
+    fn orientation(&self) -> bool {
+        self.slope > 0.0
+    }
     fn newton_step(&mut self, step: &mut [f64]) {
         step[0] = -self.r / self.slope;
     }
@@ -85,5 +88,6 @@ fn a_path_stops_at_a_fold_and_does_not_jump_over_it() {
     let (end, _) = follow(&mut system, &PathOptions::default(), &mut |_, _| {});
     let PathEnd::Stalled { load } = end else { panic!("{end:?}") };
     assert!((load * 0.8 - 2.0 / 3.0).abs() < 1e-4, "stopped at {load}");
-    assert!(system.x > 0.9 && system.x < 1.001);
+    // Points of the path are only as good as `point_tolerance`.
+    assert!((system.x - 1.0).abs() < 0.02, "{}", system.x);
 }
