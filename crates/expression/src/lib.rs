@@ -1,53 +1,61 @@
 //! Expressions, units and dimensions, as they stand in a model file.
+//!
+//! A text is parsed into an [`Expression`], whose every part knows its byte range. Its references are then
+//! bound to values, to a variable or to slots, the dimensions are checked on the way, and what comes out is
+//! a [`Quantity`], a [`Function`] of one variable with exact derivatives, or a [`Formula`] over slots.
+//!
+//! How plain numbers and units live together: a plain number is in SI units. It scales what it multiplies,
+//! and takes over the dimension of what it is added to; two numbers that bear units must agree.
+//!
+//! Absent on purpose: electric units, affine temperatures (degrees Celsius), and the unit names `h`, `L`,
+//! `t`, `A`, `F`, `GJ`, which users want as names of their own parameters.
 
-/// A real function of one variable in SI units, all parameters folded in.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Function {
-    text: String,
+mod dimension;
+mod error;
+mod expression;
+mod function;
+mod jet;
+mod lexer;
+mod lower;
+mod nearest;
+mod parser;
+mod program;
+mod unit;
+
+pub use dimension::{Dimension, Kind, Quantity};
+pub use error::ExpressionError;
+pub use expression::{Expression, Reference, Segment};
+pub use function::{Formula, Function};
+pub use lower::{Binding, Lowered};
+pub use nearest::nearest;
+pub use unit::{Unit, UnitEntry, unit, unit_table};
+
+/// The names of the functions that an expression may call, with what they are.
+pub fn function_table() -> impl Iterator<Item = (&'static str, &'static str)> {
+    expression::Call::TABLE.iter().map(|entry| (entry.name, entry.doc))
 }
 
-impl Function {
-    /// The function that is `value` everywhere.
-    pub fn constant(_value: f64) -> Self {
-        unimplemented!()
-    }
-    /// Parses an expression of the one variable `variable`, numbers in SI units.
-    pub fn parse(_text: &str, _variable: &str) -> Result<Self, ExpressionError> {
-        unimplemented!()
-    }
-    /// f(x).
-    pub fn value(&self, _x: f64) -> f64 {
-        unimplemented!()
-    }
-    /// f(x) and its first three derivatives, exact (truncated Taylor arithmetic).
-    pub fn jet(&self, _x: f64) -> [f64; 4] {
-        unimplemented!()
-    }
-    /// The value if the function does not depend on its variable.
-    pub fn as_constant(&self) -> Option<f64> {
-        unimplemented!()
-    }
+/// The named constants that an expression may use.
+pub fn constant_table() -> impl Iterator<Item = (&'static str, f64)> {
+    expression::CONSTANTS.iter().copied()
 }
 
-/// An expression over numbered slots, compiled: what an output is made of.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Formula {
-    text: String,
-}
-
-impl Formula {
-    /// The value with the given slot values.
-    pub fn evaluate(&self, _slots: &[f64]) -> f64 {
-        unimplemented!()
+/// Why a name may not be given to a parameter: it already means something in an expression.
+pub fn reserved(name: &str) -> Option<&'static str> {
+    if unit(name).is_some() {
+        return Some("a unit");
     }
+    if expression::CONSTANTS.iter().any(|(constant, _)| *constant == name) {
+        return Some("a constant");
+    }
+    if expression::Call::find(name).is_some() {
+        return Some("a function");
+    }
+    if ["beam", "body", "joint", "spring", "model", "nan"].contains(&name) {
+        return Some("a word of the expressions");
+    }
+    None
 }
 
-/// What is wrong with an expression, with the byte range in its text.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{message}")]
-pub struct ExpressionError {
-    /// What is wrong, one sentence.
-    pub message: String,
-    /// Where, as a byte range in the expression's text.
-    pub span: std::ops::Range<usize>,
-}
+#[cfg(test)]
+mod tests;

@@ -1,1 +1,41 @@
-fn main(){}
+//! The `flexura` command: one file for each sub-command, and the only place in flexura that prints.
+//!
+//! Standard output carries results, standard error everything else. Exit codes: 0 converged, 1 the solver
+//! did not converge, 2 the input is wrong, 3 the machine failed.
+
+mod arguments;
+mod commands;
+mod failure;
+mod progress;
+mod quantity;
+mod screen;
+mod summary;
+mod table;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let report = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        report(panic);
+        screen::complain(
+            "this is a bug in flexura; please report it with the model file and the lines above",
+        );
+    }));
+    let result = match Arguments::parse().command {
+        Command::Solve(arguments) => commands::solve::run(&arguments),
+        Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Examples(arguments) => commands::examples::run(&arguments),
+        Command::Schema => commands::schema::run(),
+        Command::Completions(arguments) => commands::completions::run(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            screen::complain(&failure.to_string());
+            failure.exit_code()
+        }
+    }
+}

@@ -1,1 +1,98 @@
-//! flexura.
+//! Large-deflection compliant mechanisms.
+//!
+//! A mechanism is made of flexible **beams** (geometrically exact: any bending, twist and stretch), rigid
+//! **bodies**, **joints** and **springs**, under **loads**. It is described by an inert [`model::Model`],
+//! solved into a [`solution::Solution`], judged by [`post`] and written out by [`output`]. All numbers are
+//! in SI units and radians.
+//!
+//! # From a model file
+//!
+//! ```
+//! # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
+//! let solved = flexura::solve_file("models/cantilever_strip.toml", &[], &flexura::Options::default())?;
+//! assert_eq!(solved.solution.status, flexura::solution::Status::Converged);
+//! let x_over_length = solved.number("x_over_length").expect("the file asks for this output");
+//! assert!((x_over_length - 0.841_075_234).abs() < 1e-7);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Parameters are overridden by name; a value may carry a unit, as in the file:
+//!
+//! ```
+//! # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
+//! let overrides = [("payload".to_owned(), "20 g".to_owned())];
+//! let solved = flexura::solve_file("models/cantilever_strip.toml", &overrides, &flexura::Options::default())?;
+//! let sag = solved.number("z_over_length").expect("the file asks for this output");
+//! assert!(sag < 0.0 && sag > -0.491);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # From Rust
+//!
+//! The same model, built piece by piece. Things refer to each other by typed ids, which are their
+//! positions in the model's lists.
+//!
+//! ```
+//! use flexura::model::*;
+//! use flexura::spatial::Vector3;
+//!
+//! let mut model = Model { name: "cantilever".into(), ..Model::default() };
+//! model.sections.push(Section {
+//!     name: "rod".into(),
+//!     shape: Shape::Stiffness {
+//!         ea: f64::INFINITY.into(),
+//!         gj: 1.0.into(),
+//!         ei2: 1.0.into(),
+//!         ei3: 1.0.into(),
+//!         ga2: None,
+//!         ga3: None,
+//!         mass_per_length: None,
+//!     },
+//!     plane_strain: false,
+//! });
+//! model.beams.push(Beam {
+//!     name: "rod".into(),
+//!     material: None,
+//!     section: SectionId(0),
+//!     curve: Curve::Straight { length: 1.0 },
+//!     frame: SectionFrame::Natural,
+//!     theory: BeamTheory { shear: false, extension: false },
+//!     start: Some(End { body: BodyRef::Ground, placement: None, hold: JointLaw::weld() }),
+//!     end: None,
+//!     distributed: Vec::new(),
+//! });
+//! model.loads.push(Load {
+//!     name: "tip".into(),
+//!     target: LoadTarget::Beam(BeamPoint { beam: BeamId(0), at: At::Fraction(1.0) }),
+//!     force: Vector3::new(0.0, 10.0, 0.0),
+//!     moment: Vector3::zeros(),
+//!     frame: LoadFrame::Global,
+//! });
+//!
+//! let solution = flexura::solve(&model, &flexura::Options::default(), &mut |_| {})
+//!     .map_err(|error| error.message)?;
+//! let tip = solution.beams[0].samples.last().expect("every beam has samples");
+//! // Mattiasson (1981): w/L = 0.81061, u/L = 0.55500 at P L²/EI = 10.
+//! assert!((tip.pose.position.y - 0.81061).abs() < 1e-5);
+//! assert!((1.0 - tip.pose.position.x - 0.55500).abs() < 1e-5);
+//! # Ok::<(), String>(())
+//! ```
+//!
+//! # Results
+//!
+//! Not converging is no error: [`solution::Status`] says how a study ended, and the solution holds how far
+//! it came. [`post::evaluate`] gives stresses, safety factors and outputs; [`output::document`] the result
+//! document; [`output::beams_csv`], [`output::model_vtp`] and [`output::shape_svg`] the files.
+
+mod solve_file;
+
+pub use flexura_expression as expression;
+pub use flexura_geometry as geometry;
+pub use flexura_model as model;
+pub use flexura_modelfile as modelfile;
+pub use flexura_output as output;
+pub use flexura_post as post;
+pub use flexura_solution as solution;
+pub use flexura_spatial as spatial;
+pub use flexura_study::{Census, Options, ProblemError, Progress, check, solve};
+pub use solve_file::{Error, Solved, solve_file};

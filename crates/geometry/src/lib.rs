@@ -1,1 +1,32 @@
-//! Being built.
+//! Rest shapes and cross sections of beams: pure geometry and section laws, no numbering of unknowns.
+//!
+//! * [`RestShape`] turns a curve and a rule for the section's axes into rest curvatures k1, k2, k3 along
+//!   the arc length, and into the stress-free pose of every section.
+//! * [`compliance`], [`stiffness`], [`properties`], [`mass_per_length`], [`peak_stress`] and [`outline`]
+//!   are the laws of a cross section.
+//!
+//! Absent on purpose: loads, deformation, everything that needs to know other beams.
+
+#![expect(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "a NaN must take the same way as a value that is too small"
+)]
+
+mod cells;
+mod constant;
+mod error;
+mod frame;
+mod legendre;
+mod path;
+mod profiles;
+mod rest_shape;
+mod section;
+mod smooth;
+mod spline;
+
+pub use error::{SectionError, ShapeError};
+pub use rest_shape::RestShape;
+pub use section::{
+    Compliance, Properties, SectionStress, compliance, is_uniform, mass_per_length, outline, peak_stress,
+    properties, section_breaks, stiffness,
+};

@@ -1,1 +1,37 @@
-//! Being built.
+//! Files and documents of a result: JSON, CSV, VTK and SVG.
+//!
+//! Each writer returns text; nothing here touches a disk or a terminal. The wire types are this crate's
+//! own, so that the result document stays as it is when the solver's types change.
+//!
+//! JSON knows no NaN and no infinity, and `null` in their place would be a lie: a document that would need
+//! one is refused with [`OutputError`], which names the field.
+
+mod csv;
+mod document;
+mod json;
+mod svg;
+mod vtk;
+mod wire;
+
+pub use csv::beams_csv;
+pub use document::document;
+pub use json::{Named, to_json};
+pub use svg::shape_svg;
+pub use vtk::model_vtp;
+pub use wire::{BeamDocument, BodyDocument, Document, JointDocument, SpringDocument, Value, WorkDocument};
+
+/// Why something cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// A number that is none.
+    #[error("the result's `{field}` is {value}, which a result document cannot hold")]
+    NotFinite {
+        /// Key path in the document (`beams.link.moment[17]`).
+        field: String,
+        /// The value.
+        value: f64,
+    },
+    /// JSON could not be written.
+    #[error("the result document cannot be written: {0}")]
+    Json(#[from] serde_json::Error),
+}

@@ -1,1 +1,85 @@
-//! Being built.
+//! What a solution means: stresses, strains, safety, and the outputs that the user asked for.
+//!
+//! Everything here is computed from a [`Model`] and a [`Solution`] alone; no solver is involved. Strain
+//! energy is not computed but taken over from the solution, which integrates it with the beam.
+
+mod outputs;
+mod stress;
+mod summary;
+
+pub use flexura_geometry::SectionStress;
+pub use outputs::{OutputResult, OutputValue, evaluate_outputs};
+pub use stress::{BeamPeaks, BeamStress, Peak, beam_stress};
+pub use summary::{
+    BeamSummary, BodySummary, CoordinateSummary, JointSummary, OutputSummary, Scales, Summary, summarise,
+};
+
+use flexura_model::Model;
+use flexura_solution::Solution;
+
+/// Everything that is derived from a solution, in the order of the model's lists.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// One for each beam; None where the section is given as a stiffness and has no outer fibre.
+    pub beams: Vec<Option<BeamStress>>,
+    /// One for each output.
+    pub outputs: Vec<OutputResult>,
+}
+
+/// Stresses, strains and outputs of a solution.
+///
+/// # Errors
+/// [`PostError`] where an output asks for something that is not there or comes out as no finite number.
+pub fn evaluate(model: &Model, solution: &Solution) -> Result<Evaluation, PostError> {
+    let beams: Vec<_> = model
+        .beams
+        .iter()
+        .zip(&solution.beams)
+        .map(|(beam, result)| beam_stress(model, beam, result))
+        .collect();
+    let outputs = evaluate_outputs(model, solution, &beams)?;
+    Ok(Evaluation { beams, outputs })
+}
+
+/// An output that has no value.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PostError {
+    /// A formula gave NaN or an infinity.
+    #[error(
+        "output `{output}` is {value}, not a finite number (a division by zero, or the root of a negative number?)"
+    )]
+    NotFinite {
+        /// Name of the output.
+        output: String,
+        /// What came out.
+        value: f64,
+    },
+    /// Stress or strain of a section that has no shape.
+    #[error(
+        "output `{output}` asks for stress or strain in beam `{beam}`, whose section is given as a stiffness and has no outer fibre"
+    )]
+    NoStress {
+        /// Name of the output.
+        output: String,
+        /// Name of the beam.
+        beam: String,
+    },
+    /// The solution holds no sample where an output looks.
+    #[error("output `{output}` looks at s = {s} m of beam `{beam}`, where the solution has no sample")]
+    NoSample {
+        /// Name of the output.
+        output: String,
+        /// Name of the beam.
+        beam: String,
+        /// Arc length, m.
+        s: f64,
+    },
+    /// A quantity that its target does not have.
+    #[error("output `{output}` asks for a quantity that {target} does not have")]
+    NoSuchQuantity {
+        /// Name of the output.
+        output: String,
+        /// What it looks at.
+        target: &'static str,
+    },
+}

@@ -49,136 +49,92 @@ pub const WEIGHTS: [f64; STAGES] = [
     0.04471061572777259,
 ];
 
-/// `y + h (c_0 k_0 + c_1 k_1 + ...)` with the terms named; every lane alike.
+/// `y + c_0 r_0 + c_1 r_1 + ...` over the rates named by their stage, every lane alike.
 macro_rules! combine {
-    ($y:expr, $h:expr, $($c:literal * $k:expr),+ $(,)?) => {{
+    ($y:expr, $rates:expr, $(($j:literal, $c:literal)),+) => {{
         let mut out = *$y;
         for (i, row) in out.iter_mut().enumerate() {
             for (l, value) in row.iter_mut().enumerate() {
-                *value += $h * (0.0 $(+ $c * $k[i][l])+);
+                *value += 0.0 $(+ $c * $rates[$j][i][l])+;
             }
         }
         out
     }};
 }
 
-/// One step of size `h` from `y`; `rhs(stage, state)` is the right-hand side at the stage's place.
+/// A right-hand side. A trait rather than a closure: a closure is compiled for the baseline processor even
+/// inside a function that is compiled for AVX2, and would not be inlined there.
+pub trait Rate<const N: usize, const W: usize> {
+    /// The rate of `state` at the place of stage `stage` in step `step`. Mark it `#[inline(always)]`.
+    fn rate(&self, step: usize, stage: usize, state: &State<N, W>) -> State<N, W>;
+}
+
+/// Room for the rates of the stages (each times the step).
+pub type Workspace<const N: usize, const W: usize> = [State<N, W>; STAGES];
+
+/// An empty workspace.
+#[inline(always)]
+pub fn workspace<const N: usize, const W: usize>() -> Workspace<N, W> {
+    [[[0.0; W]; N]; STAGES]
+}
+
+/// Step number `index`, of size `h`, from `y`.
 #[inline(always)]
 pub fn step<const N: usize, const W: usize>(
     y: &State<N, W>,
     h: f64,
-    mut rhs: impl FnMut(usize, &State<N, W>) -> State<N, W>,
+    index: usize,
+    system: &impl Rate<N, W>,
+    rates: &mut Workspace<N, W>,
 ) -> State<N, W> {
-    let k0 = rhs(0, y);
-    let k1 = rhs(1, &combine!(y, h, 0.05260015195876773 * k0));
-    let k2 = rhs(2, &combine!(y, h, 0.0197250569845379 * k0, 0.0591751709536137 * k1));
-    let k3 = rhs(3, &combine!(y, h, 0.02958758547680685 * k0, 0.08876275643042054 * k2));
-    let k4 = rhs(
-        4,
-        &combine!(y, h, 0.2413651341592667 * k0, -0.8845494793282861 * k2, 0.924834003261792 * k3),
-    );
-    let k5 = rhs(
-        5,
-        &combine!(y, h, 0.037037037037037035 * k0, 0.17082860872947386 * k3, 0.12546768756682242 * k4),
-    );
-    let k6 = rhs(
-        6,
-        &combine!(y, h, 0.037109375 * k0, 0.17025221101954405 * k3, 0.06021653898045596 * k4, -0.017578125 * k5),
-    );
-    let k7 = rhs(
-        7,
-        &combine!(
-            y,
-            h,
-            0.03709200011850479 * k0,
-            0.17038392571223998 * k3,
-            0.10726203044637328 * k4,
-            -0.015319437748624402 * k5,
-            0.008273789163814023 * k6,
-        ),
-    );
-    let k8 = rhs(
-        8,
-        &combine!(
-            y,
-            h,
-            0.6241109587160757 * k0,
-            -3.3608926294469414 * k3,
-            -0.868219346841726 * k4,
-            27.59209969944671 * k5,
-            20.154067550477894 * k6,
-            -43.48988418106996 * k7,
-        ),
-    );
-    let k9 = rhs(
-        9,
-        &combine!(
-            y,
-            h,
-            0.47766253643826434 * k0,
-            -2.4881146199716677 * k3,
-            -0.590290826836843 * k4,
-            21.230051448181193 * k5,
-            15.279233632882423 * k6,
-            -33.28821096898486 * k7,
-            -0.020331201708508627 * k8,
-        ),
-    );
-    let k10 = rhs(
-        10,
-        &combine!(
-            y,
-            h,
-            -0.9371424300859873 * k0,
-            5.186372428844064 * k3,
-            1.0914373489967295 * k4,
-            -8.149787010746927 * k5,
-            -18.52006565999696 * k6,
-            22.739487099350505 * k7,
-            2.4936055526796523 * k8,
-            -3.0467644718982196 * k9,
-        ),
-    );
-    let k11 = rhs(
-        11,
-        &combine!(
-            y,
-            h,
-            2.273310147516538 * k0,
-            -10.53449546673725 * k3,
-            -2.0008720582248625 * k4,
-            -17.9589318631188 * k5,
-            27.94888452941996 * k6,
-            -2.8589982771350235 * k7,
-            -8.87285693353063 * k8,
-            12.360567175794303 * k9,
-            0.6433927460157636 * k10,
-        ),
-    );
-    combine!(
-        y,
-        h,
-        0.054293734116568765 * k0,
-        4.450312892752409 * k5,
-        1.8915178993145003 * k6,
-        -5.801203960010585 * k7,
-        0.3111643669578199 * k8,
-        -0.1521609496625161 * k9,
-        0.20136540080403034 * k10,
-        0.04471061572777259 * k11,
-    )
+    // One copy of the right-hand side in a loop: twelve copies would not fit the instruction cache.
+    let mut at = *y;
+    for stage in 0..STAGES {
+        let mut rate = system.rate(index, stage, &at);
+        for row in &mut rate {
+            for value in row {
+                *value *= h;
+            }
+        }
+        rates[stage] = rate;
+        at = match stage {
+            0 => combine!(y, rates, (0, 0.05260015195876773)),
+            1 => combine!(y, rates, (0, 0.0197250569845379), (1, 0.0591751709536137)),
+            2 => combine!(y, rates, (0, 0.02958758547680685), (2, 0.08876275643042054)),
+            3 => combine!(y, rates, (0, 0.2413651341592667), (2, -0.8845494793282861), (3, 0.924834003261792)),
+            4 => combine!(y, rates, (0, 0.037037037037037035), (3, 0.17082860872947386), (4, 0.12546768756682242)),
+            5 => combine!(y, rates, (0, 0.037109375), (3, 0.17025221101954405), (4, 0.06021653898045596), (5, -0.017578125)),
+            6 => combine!(y, rates, (0, 0.03709200011850479), (3, 0.17038392571223998), (4, 0.10726203044637328), (5, -0.015319437748624402), (6, 0.008273789163814023)),
+            7 => combine!(y, rates, (0, 0.6241109587160757), (3, -3.3608926294469414), (4, -0.868219346841726), (5, 27.59209969944671), (6, 20.154067550477894), (7, -43.48988418106996)),
+            8 => combine!(y, rates, (0, 0.47766253643826434), (3, -2.4881146199716677), (4, -0.590290826836843), (5, 21.230051448181193), (6, 15.279233632882423), (7, -33.28821096898486), (8, -0.020331201708508627)),
+            9 => combine!(y, rates, (0, -0.9371424300859873), (3, 5.186372428844064), (4, 1.0914373489967295), (5, -8.149787010746927), (6, -18.52006565999696), (7, 22.739487099350505), (8, 2.4936055526796523), (9, -3.0467644718982196)),
+            10 => combine!(y, rates, (0, 2.273310147516538), (3, -10.53449546673725), (4, -2.0008720582248625), (5, -17.9589318631188), (6, 27.94888452941996), (7, -2.8589982771350235), (8, -8.87285693353063), (9, 12.360567175794303), (10, 0.6433927460157636)),
+            _ => combine!(y, rates, (0, 0.054293734116568765), (5, 4.450312892752409), (6, 1.8915178993145003), (7, -5.801203960010585), (8, 0.3111643669578199), (9, -0.1521609496625161), (10, 0.20136540080403034), (11, 0.04471061572777259)),
+        };
+    }
+    at
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    struct Quotient {
+        h: f64,
+    }
+
+    impl Rate<1, 1> for Quotient {
+        fn rate(&self, step: usize, stage: usize, y: &State<1, 1>) -> State<1, 1> {
+            [[-2.0 * (step as f64 + NODES[stage]) * self.h * y[0][0] * y[0][0]]]
+        }
+    }
+
     /// y' = -2 s y², y(0) = 1 has y = 1/(1 + s²).
     fn integrate(steps: usize) -> f64 {
         let h = 1.0 / steps as f64;
         let mut y: State<1, 1> = [[1.0]];
         for i in 0..steps {
-            y = step(&y, h, |stage, y| [[-2.0 * (i as f64 + NODES[stage]) * h * y[0][0] * y[0][0]]]);
+            y = step(&y, h, i, &Quotient { h }, &mut workspace());
         }
         y[0][0]
     }

@@ -6,11 +6,11 @@
 //! parameter, so that only the pose (7 numbers) is integrated.
 
 use super::balance::{
-    FULL_ROWS, Lanes, POSE_ROWS, add, apply, apply_lanes, apply_transposed, apply_transposed_lanes,
+    FULL_ROWS, Lanes, Matrix, POSE_ROWS, add, apply, apply_lanes, apply_transposed, apply_transposed_lanes,
     conserved_moment, cross, cross_lanes, pose_rate, rotation, sub, wrench_rate,
 };
 use super::constitutive::{Coupled, Law, Shearable, Slender};
-use crate::ode::{self, STAGES, State};
+use crate::ode::{self, Rate, STAGES, State};
 
 /// The law at every stage of every step, or once where it is the same everywhere.
 #[derive(Clone, Debug)]
@@ -121,55 +121,91 @@ fn entry<T>(table: &[T], step: usize, stage: usize) -> &T {
     if table.len() == 1 { &table[0] } else { &table[step * STAGES + stage] }
 }
 
+/// A quantity `a` that turns with the start frame, with its change: `Rᵀ a` and `Rᵀ(δa - δθ × a)`.
+#[inline(always)]
+fn localised<const W: usize>(
+    r0: &Matrix,
+    a: &[f64; 3],
+    da: &Lanes<W>,
+    dtheta: &Lanes<W>,
+) -> Lanes<W> {
+    let mut local = apply_transposed_lanes(r0, &add(da, &cross_lanes(a, dtheta)));
+    let value = apply_transposed(r0, a);
+    for i in 0..3 {
+        local[i][0] = value[i];
+    }
+    local
+}
+
+/// A stretch without distributed load: the wrench is conserved, only the pose has a rate.
+struct Unloaded<'a, L, const W: usize> {
+    laws: &'a [L],
+    force: Lanes<W>,
+    moment: Lanes<W>,
+}
+
+impl<L: Law, const W: usize> Rate<POSE_ROWS, W> for Unloaded<'_, L, W> {
+    #[inline(always)]
+    fn rate(&self, step: usize, stage: usize, y: &State<POSE_ROWS, W>) -> State<POSE_ROWS, W> {
+        let moment = conserved_moment(&[y[4], y[5], y[6]], &self.force, &self.moment);
+        pose_rate(&[y[0], y[1], y[2], y[3]], &self.force, &moment, entry(self.laws, step, stage)).0
+    }
+}
+
+/// A stretch with distributed load: force and moment have rates too.
+struct Loaded<'a, L, const W: usize> {
+    laws: &'a [L],
+    samples: &'a [LoadSample],
+    load: f64,
+    r0: Matrix,
+    dtheta: Lanes<W>,
+}
+
+impl<L: Law, const W: usize> Rate<FULL_ROWS, W> for Loaded<'_, L, W> {
+    #[inline(always)]
+    fn rate(&self, step: usize, stage: usize, y: &State<FULL_ROWS, W>) -> State<FULL_ROWS, W> {
+        let q = [y[0], y[1], y[2], y[3]];
+        let force = [y[7], y[8], y[9]];
+        let moment = [y[10], y[11], y[12]];
+        let (rate, r, along) = pose_rate(&q, &force, &moment, entry(self.laws, step, stage));
+        let sample = entry(self.samples, step, stage);
+        let scaled = |a: &[f64; 3]| [self.load * a[0], self.load * a[1], self.load * a[2]];
+        let zero = [[0.0; W]; 3];
+        let dead = [
+            localised(&self.r0, &scaled(&sample.dead_force), &zero, &self.dtheta),
+            localised(&self.r0, &scaled(&sample.dead_moment), &zero, &self.dtheta),
+        ];
+        let section = [scaled(&sample.section_force), scaled(&sample.section_moment)];
+        wrench_rate(&rate, &q, &r, &along, &force, &dead, &section)
+    }
+}
+
 #[inline(always)]
 fn run<L: Law, const W: usize>(piece: &Piece, laws: &[L], load: f64, state: &mut RodState<W>) {
     let (r0, _) = rotation(&state.rotation);
-    // A quantity that turns with the start frame changes by Rᵀ(δa - δθ × a) in that frame.
-    let localised = |a: &[f64; 3], da: &Lanes<W>, dtheta: &Lanes<W>| -> Lanes<W> {
-        let mut local = apply_transposed_lanes(&r0, &add(da, &cross_lanes(a, dtheta)));
-        let value = apply_transposed(&r0, a);
-        for i in 0..3 {
-            local[i][0] = value[i];
-        }
-        local
-    };
     let dtheta0 = state.rows(0);
-    let force0 = localised(&state.force, &state.rows(6), &dtheta0);
-    let moment0 = localised(&state.moment, &state.rows(9), &dtheta0);
+    let force0 = localised(&r0, &state.force, &state.rows(6), &dtheta0);
+    let moment0 = localised(&r0, &state.moment, &state.rows(9), &dtheta0);
     let h = piece.length / piece.steps as f64;
-
     let (pose, force, moment) = if piece.loads.is_empty() {
+        let system = Unloaded { laws, force: force0, moment: moment0 };
         let mut y: State<POSE_ROWS, W> = [[0.0; W]; POSE_ROWS];
         y[0][0] = 1.0;
+        let mut rates = ode::workspace();
         for i in 0..piece.steps {
-            y = ode::step(&y, h, |stage, y| {
-                let moment = conserved_moment(&[y[4], y[5], y[6]], &force0, &moment0);
-                pose_rate(&[y[0], y[1], y[2], y[3]], &force0, &moment, entry(laws, i, stage)).0
-            });
+            y = ode::step(&y, h, i, &system, &mut rates);
         }
         let moment = conserved_moment(&[y[4], y[5], y[6]], &force0, &moment0);
         (y, force0, moment)
     } else {
-        let zero = [[0.0; W]; 3];
+        let system = Loaded { laws, samples: &piece.loads, load, r0, dtheta: dtheta0 };
         let mut y: State<FULL_ROWS, W> = [[0.0; W]; FULL_ROWS];
         y[0][0] = 1.0;
         y[7..10].copy_from_slice(&force0);
         y[10..13].copy_from_slice(&moment0);
+        let mut rates = ode::workspace();
         for i in 0..piece.steps {
-            y = ode::step(&y, h, |stage, y| {
-                let q = [y[0], y[1], y[2], y[3]];
-                let force = [y[7], y[8], y[9]];
-                let moment = [y[10], y[11], y[12]];
-                let (rate, r, along) = pose_rate(&q, &force, &moment, entry(laws, i, stage));
-                let sample = entry(&piece.loads, i, stage);
-                let scaled = |a: &[f64; 3]| [load * a[0], load * a[1], load * a[2]];
-                let dead = [
-                    localised(&scaled(&sample.dead_force), &zero, &dtheta0),
-                    localised(&scaled(&sample.dead_moment), &zero, &dtheta0),
-                ];
-                let section = [scaled(&sample.section_force), scaled(&sample.section_moment)];
-                wrench_rate(&rate, &q, &r, &along, &force, &dead, &section)
-            });
+            y = ode::step(&y, h, i, &system, &mut rates);
         }
         let mut pose = [[0.0; W]; POSE_ROWS];
         pose.copy_from_slice(&y[..POSE_ROWS]);
@@ -181,7 +217,7 @@ fn run<L: Law, const W: usize>(piece: &Piece, laws: &[L], load: f64, state: &mut
 /// Puts the end of a piece, found in the piece's start frame, back into global axes.
 #[inline(always)]
 fn globalise<const W: usize>(
-    r0: &[[f64; 3]; 3],
+    r0: &Matrix,
     pose: &State<POSE_ROWS, W>,
     force: &Lanes<W>,
     moment: &Lanes<W>,

@@ -501,3 +501,6 @@ fn check_law(law: &JointLaw, path: &str, issues: &mut Issues) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

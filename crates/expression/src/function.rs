@@ -1,0 +1,83 @@
+//! What a bound expression becomes: a function of one variable, or a formula over slots.
+
+use crate::jet::Jet;
+use crate::program::Program;
+use crate::{Binding, Expression, ExpressionError, Kind, Reference};
+
+/// A real function of one variable in SI units, all parameters folded in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function {
+    pub(crate) text: String,
+    pub(crate) program: Program,
+}
+
+impl Function {
+    /// The function that is `value` everywhere.
+    pub fn constant(value: f64) -> Self {
+        Self { text: value.to_string(), program: Program::constant(value) }
+    }
+
+    /// Parses an expression of the one variable `variable`, numbers in SI units.
+    pub fn parse(text: &str, variable: &str) -> Result<Self, ExpressionError> {
+        let expression = Expression::parse_with_variable(text, variable)?;
+        let lowered = expression.lower(&mut |reference| {
+            if reference.name() == Some(variable) {
+                Ok(Binding::Variable(Kind::Plain))
+            } else {
+                Err(unknown(reference, text, variable))
+            }
+        })?;
+        Ok(lowered.function())
+    }
+
+    /// f(x).
+    pub fn value(&self, x: f64) -> f64 {
+        self.program.run(x, &[])
+    }
+
+    /// f(x) and its first three derivatives, exact (truncated Taylor arithmetic).
+    pub fn jet(&self, x: f64) -> [f64; 4] {
+        self.program.run(Jet::variable(x), &[]).derivatives()
+    }
+
+    /// The value if the function does not depend on its variable.
+    pub fn as_constant(&self) -> Option<f64> {
+        self.program.as_constant()
+    }
+
+    /// The text it was parsed from.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+fn unknown(reference: &Reference, text: &str, variable: &str) -> ExpressionError {
+    let name = &text[reference.span.clone()];
+    ExpressionError::new(format!("`{name}` is not known here"), reference.span.clone())
+        .with_hint(format!("the variable is `{variable}`"))
+}
+
+/// An expression over numbered slots, compiled: what an output is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formula {
+    pub(crate) text: String,
+    pub(crate) program: Program,
+}
+
+impl Formula {
+    /// The formula that is the slot of this number.
+    pub fn slot(slot: usize) -> Self {
+        let instructions = vec![crate::program::Instruction::Slot(slot)];
+        Self { text: format!("slot {slot}"), program: Program { instructions } }
+    }
+
+    /// The value with the given slot values; NaN where a slot is missing.
+    pub fn evaluate(&self, slots: &[f64]) -> f64 {
+        self.program.run(0.0, slots)
+    }
+
+    /// The text it was parsed from.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}

@@ -1,0 +1,126 @@
+//! What can be typed behind `flexura`.
+
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
+use std::path::PathBuf;
+
+/// Large-deflection compliant mechanisms: beams, bodies, joints and springs in equilibrium.
+#[derive(Parser)]
+#[command(
+    name = "flexura",
+    version,
+    after_help = "Start with:\n  flexura examples                        the bundled models\n  flexura examples cantilever_strip       write one of them here\n  flexura solve cantilever_strip.toml     solve it\n\nExit codes: 0 converged, 1 not converged, 2 wrong input, 3 the machine failed."
+)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Find the equilibrium and print outputs, stresses and poses
+    Solve(SolveArguments),
+    /// Say what a model is, unknowns against equations, without solving it
+    Check(CheckArguments),
+    /// List the bundled models, or write one of them here
+    Examples(ExamplesArguments),
+    /// Print the JSON Schema of model files, for editors
+    Schema,
+    /// Print a completion script for a shell
+    Completions(CompletionsArguments),
+}
+
+/// Which model.
+#[derive(Args)]
+pub struct ModelArguments {
+    /// The model file (TOML)
+    pub file: PathBuf,
+    /// Override a parameter, e.g. --set push="3.2 N"; may be repeated
+    #[arg(long = "set", value_name = "P=VALUE", value_parser = parameter_override)]
+    pub overrides: Vec<(String, String)>,
+    /// Print the result document (JSON) on standard output and nothing else
+    #[arg(long)]
+    pub json: bool,
+    /// Print no summary, no warnings and no progress, only errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+#[derive(Args)]
+pub struct SolveArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Write result.json, beams.csv, model.vtp and shape.svg into this folder
+    #[arg(long, short = 'o', value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+}
+
+#[derive(Args)]
+pub struct CheckArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+}
+
+#[derive(Args)]
+pub struct ExamplesArguments {
+    /// The model to write into the current folder
+    pub name: Option<String>,
+    /// Overwrite a file of that name
+    #[arg(long, requires = "name")]
+    pub force: bool,
+}
+
+#[derive(Args)]
+pub struct CompletionsArguments {
+    /// For which shell
+    pub shell: Shell,
+}
+
+fn parameter_override(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err("write a parameter's name, an equals sign and its value: push=3.2 or push=\"3.2 N\"".into()),
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let tolerance: f64 = text.parse().map_err(|_| "a plain number is wanted, such as 1e-8".to_owned())?;
+    if tolerance.is_nan() || tolerance > 1e-1 {
+        return Err("above 0.1 a result says nothing; choose between 1e-13 and 0.1".into());
+    }
+    if tolerance < 1e-13 {
+        return Err("double precision cannot reach less than 1e-13; choose between 1e-13 and 0.1".into());
+    }
+    Ok(tolerance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn an_override_keeps_its_unit_and_further_equals_signs() {
+        assert_eq!(parameter_override("push = 3 N"), Ok(("push".into(), "3 N".into())));
+        assert_eq!(parameter_override("a=b=c"), Ok(("a".into(), "b=c".into())));
+        assert!(parameter_override("push").is_err() && parameter_override("=3").is_err());
+    }
+
+    #[test]
+    fn tolerances_beyond_reason_are_refused() {
+        for text in ["0", "-1", "1e-14", "0.2", "nan", "inf", "small"] {
+            assert!(tolerance(text).is_err(), "{text}");
+        }
+        assert_eq!(tolerance("1e-10"), Ok(1e-10));
+    }
+}

@@ -1,0 +1,105 @@
+//! `flexura check FILE`
+
+use super::{file_failure, problem_failure, warn_about};
+use crate::arguments::CheckArguments;
+use crate::failure::Failure;
+use crate::quantity::quantity;
+use crate::screen::{self, BAD, GOOD, styled};
+use crate::table::Table;
+use flexura::Census;
+use flexura::model::Model;
+use flexura::modelfile::Document;
+use flexura::output::{Named, to_json};
+use serde::Serialize;
+
+pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
+    let arguments = &arguments.model;
+    let file = Document::read(&arguments.file).map_err(|report| file_failure(&report))?;
+    let model = file.model(&arguments.overrides).map_err(|report| file_failure(&report))?;
+    let census = flexura::check(&model).map_err(|error| problem_failure(&file, &error))?;
+    if arguments.json {
+        let text = to_json(&CheckDocument::new(&model, &census))
+            .map_err(|error| Failure::Machine(error.to_string()))?;
+        screen::print(&text)?;
+    } else if !arguments.quiet {
+        screen::print(&render(&model, &census))?;
+    }
+    if !arguments.quiet {
+        warn_about(&file, &census.warnings);
+    }
+    Ok(())
+}
+
+fn total(items: &[(String, usize)]) -> usize {
+    items.iter().map(|(_, count)| count).sum()
+}
+
+fn render(model: &Model, census: &Census) -> String {
+    let (unknowns, equations) = (total(&census.unknowns), total(&census.equations));
+    let name = if model.name.is_empty() { "mechanism" } else { &model.name };
+    let verdict = if unknowns == equations {
+        styled(GOOD, "as many as there are equations")
+    } else {
+        styled(BAD, &format!("but {equations} equations"))
+    };
+    let mut text = format!("{name}: {unknowns} unknowns, {verdict}\n");
+    for (heading, items) in [("unknowns", &census.unknowns), ("equations", &census.equations)] {
+        let mut table = Table::new(&[heading]);
+        for (what, count) in items {
+            table.row(vec![what.clone(), count.to_string()]);
+        }
+        add(&mut text, &table);
+    }
+    let mut parameters = Table::new(&["parameters"]);
+    for parameter in &model.parameters {
+        parameters.row(vec![parameter.name.clone(), quantity(parameter.value, &parameter.unit, 6)]);
+    }
+    add(&mut text, &parameters);
+    let mut outputs = Table::new(&["outputs", "unit"]);
+    for output in &model.outputs {
+        let unit = if output.unit.is_empty() { "plain number" } else { &output.unit };
+        let shape = if output.formulas.len() == 3 { "3 x " } else { "" };
+        outputs.row(vec![output.name.clone(), format!("{shape}{unit}")]);
+    }
+    add(&mut text, &outputs);
+    text
+}
+
+fn add(text: &mut String, table: &Table) {
+    if !table.is_empty() {
+        text.push('\n');
+        *text += &table.render();
+    }
+}
+
+#[derive(Serialize)]
+struct CheckDocument<'a> {
+    flexura: &'static str,
+    model: &'a str,
+    study: &'static str,
+    unknowns: usize,
+    equations: usize,
+    unknown_counts: Named<usize>,
+    equation_counts: Named<usize>,
+    parameters: Named<f64>,
+    warnings: &'a [String],
+}
+
+impl<'a> CheckDocument<'a> {
+    fn new(model: &'a Model, census: &'a Census) -> Self {
+        let parameters = model.parameters.iter();
+        Self {
+            flexura: env!("CARGO_PKG_VERSION"),
+            model: &model.name,
+            study: "check",
+            unknowns: total(&census.unknowns),
+            equations: total(&census.equations),
+            unknown_counts: Named(census.unknowns.clone()),
+            equation_counts: Named(census.equations.clone()),
+            parameters: Named(
+                parameters.map(|parameter| (parameter.name.clone(), parameter.value)).collect(),
+            ),
+            warnings: &census.warnings,
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! The sub-commands, one a file.
+
+pub mod check;
+pub mod completions;
+pub mod examples;
+pub mod schema;
+pub mod solve;
+
+use crate::failure::Failure;
+use crate::screen;
+use flexura::ProblemError;
+use flexura::modelfile::{Document, Report, ReportKind};
+
+/// Anything that is wrong with a model file, as the command's end.
+pub fn file_failure(report: &Report) -> Failure {
+    let message = report.render(true);
+    match report.kind() {
+        ReportKind::Io => Failure::Machine(message),
+        ReportKind::Input => Failure::Input(message),
+    }
+}
+
+/// A file that reads well but describes no solvable mechanism: shown at the place that is to blame.
+pub fn problem_failure(file: &Document, error: &ProblemError) -> Failure {
+    let hint = Some(error.hint.as_str()).filter(|hint| !hint.is_empty());
+    Failure::Input(file.problem(&error.path, &error.message, hint).render(true))
+}
+
+/// What looks unintended in the file though it can be solved.
+pub fn warn_about(file: &Document, warnings: &[String]) {
+    for problem in file.warnings() {
+        screen::note(problem.render(true).trim_end());
+    }
+    for warning in warnings {
+        screen::warn(warning);
+    }
+}

@@ -1,0 +1,8 @@
+//! `flexura schema`
+
+use crate::failure::Failure;
+use crate::screen;
+
+pub fn run() -> Result<(), Failure> {
+    screen::print(&format!("{}\n", flexura::modelfile::schema().trim_end()))
+}

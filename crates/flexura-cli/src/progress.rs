@@ -1,0 +1,46 @@
+//! A bar on standard error while load stepping takes its time.
+
+use flexura::Progress;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+/// Nobody wants to see a bar that is gone at once.
+const PATIENCE: Duration = Duration::from_millis(500);
+const TICKS: u64 = 1000;
+
+/// Shows how far the load has come. Costs nothing until it has something to show.
+pub struct Meter {
+    started: Instant,
+    is_wanted: bool,
+    bar: Option<ProgressBar>,
+}
+
+impl Meter {
+    pub fn new(is_quiet: bool) -> Self {
+        Self { started: Instant::now(), is_wanted: !is_quiet && std::io::stderr().is_terminal(), bar: None }
+    }
+
+    pub fn update(&mut self, progress: Progress) {
+        if !self.is_wanted || self.started.elapsed() < PATIENCE {
+            return;
+        }
+        let bar = self.bar.get_or_insert_with(new_bar);
+        bar.set_message(format!("step {}", progress.load_steps));
+        bar.set_position((progress.load_fraction.clamp(0.0, 1.0) * TICKS as f64) as u64);
+    }
+
+    pub fn finish(self) {
+        if let Some(bar) = self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn new_bar() -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(TICKS), ProgressDrawTarget::stderr());
+    match ProgressStyle::with_template("{percent:>3} % of the load {bar:40} {msg}, {elapsed}") {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}

@@ -1,0 +1,171 @@
+//! What a person reads after a solve.
+
+use crate::quantity::{number, quantity, rotation, size, strain, vector};
+use crate::screen::{BAD, DIM, GOOD, styled};
+use crate::table::Table;
+use flexura::post::{BeamPeaks, BeamSummary, CoordinateSummary, OutputResult, OutputValue, Peak, Summary};
+use flexura::solution::Status;
+
+/// The summary as text.
+pub fn render(summary: &Summary) -> String {
+    let mut text = headline(summary);
+    let sections = [outputs(summary), beams(summary), bodies(summary), joints(summary), springs(summary)];
+    for section in sections.into_iter().filter(|section| !section.is_empty()) {
+        text.push('\n');
+        text += &section.render();
+    }
+    if summary.beams.iter().any(|beam| beam.peaks.is_none()) {
+        text += &format!("\n{}\n", styled(DIM, "no stress where a section is given as a stiffness"));
+    }
+    text += &format!("\nstrain energy  {}\n", quantity(summary.energy, "J", 5));
+    text
+}
+
+/// How far a study that did not converge has come: "stalled at 43 % of the load".
+pub fn standstill(status: Status, load_fraction: f64) -> String {
+    format!("{} at {} % of the load", status.word().replace('_', " "), number(100.0 * load_fraction, 3))
+}
+
+fn headline(summary: &Summary) -> String {
+    let name = if summary.model.is_empty() { "mechanism" } else { &summary.model };
+    let state = match summary.status {
+        Status::Converged => styled(GOOD, "converged"),
+        status => styled(BAD, &standstill(status, summary.load_fraction)),
+    };
+    let steps = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let mut work = steps(summary.newton_steps, "Newton step");
+    if summary.load_steps > 1 {
+        work += &format!(" over {}", steps(summary.load_steps, "load step"));
+    }
+    let error = if summary.error_estimate.is_finite() {
+        format!("estimated relative error {}", size(summary.error_estimate))
+    } else {
+        "error not estimated".to_owned()
+    };
+    let mut text = format!("{name}: {state}\n");
+    text += &format!("  {}\n", styled(DIM, &format!("{work}, {error}, residual {}", size(summary.residual))));
+    if summary.status != Status::Converged {
+        text += if summary.load_fraction < 1.0 {
+            "  what follows is how far it came, not the answer\n"
+        } else {
+            "  what follows does not have the accuracy that was asked for\n"
+        };
+    }
+    text
+}
+
+fn outputs(summary: &Summary) -> Table {
+    let mut table = Table::new(&["outputs"]);
+    for output in &summary.outputs {
+        table.row(vec![output.name.clone(), output_value(output, summary)]);
+    }
+    table
+}
+
+fn output_value(output: &OutputResult, summary: &Summary) -> String {
+    match output.value {
+        OutputValue::Number(value) if output.is_strain => strain(value, 6),
+        OutputValue::Number(value) => quantity(quiet(value, &output.unit, summary), &output.unit, 6),
+        OutputValue::Vector(values) => {
+            vector(values.map(|value| quiet(value, &output.unit, summary)), &output.unit, 6)
+        }
+    }
+}
+
+/// The value, or zero where it is nothing but rounding noise beside the other values of its kind.
+fn quiet(value: f64, unit: &str, summary: &Summary) -> f64 {
+    let scale = match unit {
+        "m" => summary.scales.length,
+        "N" => summary.scales.force,
+        "N*m" => summary.scales.moment,
+        _ => 0.0,
+    };
+    if value.abs() < 1e-12 * scale { 0.0 } else { value }
+}
+
+fn beams(summary: &Summary) -> Table {
+    let has_safety = summary.beams.iter().any(|beam| beam.has_yield_strength);
+    let has_stress = summary.beams.iter().any(|beam| beam.peaks.is_some());
+    let mut headings = vec!["beams", "length"];
+    if has_stress {
+        headings.extend(["largest strain", "axial", "bending", "torsion", "von Mises", "at"]);
+    }
+    if has_safety {
+        headings.push("safety");
+    }
+    let mut table = Table::new(&headings);
+    for beam in &summary.beams {
+        let mut row = vec![beam.name.clone(), quantity(beam.length, "m", 4)];
+        match &beam.peaks {
+            Some(peaks) => row.extend(beam_row(beam, peaks, has_safety)),
+            None if has_stress => row.extend(headings[2..].iter().map(|_| "-".to_owned())),
+            None => {}
+        }
+        table.row(row);
+    }
+    table
+}
+
+fn beam_row(beam: &BeamSummary, peaks: &BeamPeaks, has_safety: bool) -> Vec<String> {
+    let pascal = |peak: Peak| {
+        // Rounding noise of a stress beside the others is none.
+        let is_noise = peak.value.abs() < 1e-10 * peaks.von_mises.value.abs();
+        quantity(if is_noise { 0.0 } else { peak.value }, "Pa", 4)
+    };
+    let mut row = vec![
+        strain(peaks.strain.value, 4),
+        pascal(peaks.axial),
+        pascal(peaks.bending),
+        pascal(peaks.torsion),
+        pascal(peaks.von_mises),
+        format!("s = {}", quantity(peaks.von_mises.s, "m", 4)),
+    ];
+    if has_safety {
+        row.push(match peaks.safety_factor {
+            Some(factor) if factor >= 1000.0 => "> 1000".to_owned(),
+            Some(factor) if factor < 1.0 => format!("{} (yields)", number(factor, 3)),
+            Some(factor) => number(factor, 3),
+            None if beam.has_yield_strength => "unstressed".to_owned(),
+            None => "no yield strength".to_owned(),
+        });
+    }
+    row
+}
+
+fn bodies(summary: &Summary) -> Table {
+    let mut table = Table::new(&["bodies", "position", "rotation", "moved by"]);
+    for body in &summary.bodies {
+        table.row(vec![
+            body.name.clone(),
+            vector(<[f64; 3]>::from(body.position).map(|c| quiet(c, "m", summary)), "m", 6),
+            rotation(body.rotation.into()),
+            quantity(quiet(body.displacement, "m", summary), "m", 4),
+        ]);
+    }
+    table
+}
+
+fn joints(summary: &Summary) -> Table {
+    let mut table = Table::new(&["joints", "coordinate", "effort", "force", "moment"]);
+    for joint in &summary.joints {
+        let values = |pick: &dyn Fn(&CoordinateSummary) -> String| {
+            joint.coordinates.iter().map(pick).collect::<Vec<_>>().join("; ")
+        };
+        table.row(vec![
+            joint.name.clone(),
+            values(&|q| quantity(quiet(q.value, q.unit, summary), q.unit, 5)),
+            values(&|q| quantity(quiet(q.effort, q.effort_unit, summary), q.effort_unit, 5)),
+            vector(<[f64; 3]>::from(joint.force).map(|c| quiet(c, "N", summary)), "N", 4),
+            vector(<[f64; 3]>::from(joint.moment).map(|c| quiet(c, "N*m", summary)), "N*m", 4),
+        ]);
+    }
+    table
+}
+
+fn springs(summary: &Summary) -> Table {
+    let mut table = Table::new(&["springs", "length", "tension"]);
+    for (name, length, tension) in &summary.springs {
+        table.row(vec![name.clone(), quantity(*length, "m", 5), quantity(*tension, "N", 5)]);
+    }
+    table
+}

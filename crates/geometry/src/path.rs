@@ -1,0 +1,76 @@
+//! Curves that are traced by a parameter: the point and its first three derivatives.
+
+use crate::spline::Spline;
+use flexura_expression::Function;
+use flexura_spatial::Vector3;
+
+/// A curve x(t), metres, over any parameter t.
+#[derive(Clone, Debug)]
+pub(crate) enum Path {
+    /// Given by expressions.
+    Parametric { position: [Function; 3], range: [f64; 2] },
+    /// Through points.
+    Spline(Spline),
+}
+
+impl Path {
+    /// The parameter values between which the path is smooth, the ends included.
+    pub fn knots(&self) -> Vec<f64> {
+        match self {
+            Path::Parametric { range, .. } => range.to_vec(),
+            Path::Spline(spline) => spline.knots().to_vec(),
+        }
+    }
+
+    /// x(t) and its first three derivatives.
+    pub fn jet(&self, t: f64) -> [Vector3<f64>; 4] {
+        match self {
+            Path::Parametric { position, .. } => {
+                let [x, y, z] = [position[0].jet(t), position[1].jet(t), position[2].jet(t)];
+                std::array::from_fn(|i| Vector3::new(x[i], y[i], z[i]))
+            }
+            Path::Spline(spline) => spline.jet(t),
+        }
+    }
+
+    /// The local geometry at parameter `t`.
+    pub fn local(&self, t: f64) -> Local {
+        Local::new(&self.jet(t))
+    }
+}
+
+/// The geometry of a curve at one place, independent of the parameter but for the speed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Local {
+    /// x, m.
+    pub position: Vector3<f64>,
+    /// |dx/dt|.
+    pub speed: f64,
+    /// Unit tangent T.
+    pub tangent: Vector3<f64>,
+    /// dT/ds, 1/m: points to the centre of curvature, its length is the curvature.
+    pub bend: Vector3<f64>,
+    /// Torsion τ = ẋ·(ẍ×x⃛)/|ẋ×ẍ|², 1/m; not finite where the curvature vanishes.
+    pub torsion: f64,
+}
+
+impl Local {
+    /// From x and its first three derivatives with respect to any parameter.
+    pub fn new(jet: &[Vector3<f64>; 4]) -> Self {
+        let [position, d1, d2, d3] = jet;
+        let speed = d1.norm();
+        let tangent = d1 / speed;
+        let binormal = d1.cross(d2);
+        // (ẋ × ẍ) × ẋ / |ẋ|⁴ is the part of ẍ across the tangent over |ẋ|².
+        let bend = binormal.cross(&tangent) / (speed * speed * speed);
+        let torsion = binormal.dot(d3) / binormal.norm_squared();
+        Self { position: *position, speed, tangent, bend, torsion }
+    }
+
+    /// Is every derivative finite?
+    pub fn is_finite(&self) -> bool {
+        self.position.iter().all(|x| x.is_finite())
+            && self.speed.is_finite()
+            && (self.speed == 0.0 || self.bend.iter().all(|x| x.is_finite()))
+    }
+}

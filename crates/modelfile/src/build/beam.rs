@@ -1,0 +1,91 @@
+//! Beams with their ends and distributed loads.
+
+use super::body::{law, pose};
+use super::curve::{curve, frame};
+use crate::context::{Needed, Read, Reported};
+use crate::reader::Reader;
+use flexura_model::{Beam, BeamTheory, Curve, Distributed, End, LoadAxes, MaterialId, Profile, SectionId};
+
+pub(super) fn beam(reader: &Reader<'_, '_>, name: String) -> Read<Beam> {
+    let material = reader.name("material");
+    let section = reader.name("section").needed();
+    let curve = shape(reader);
+    let frame = frame(reader);
+    let start = end(reader, "start");
+    let end = end(reader, "end");
+    let shear = reader.flag("shear");
+    let extension = reader.flag("extension");
+    let distributed = distributed(reader);
+    Ok(Beam {
+        name,
+        material: material?.map(MaterialId),
+        section: SectionId(section?),
+        curve: curve?,
+        frame: frame?,
+        theory: BeamTheory { shear: shear?.unwrap_or(false), extension: extension?.unwrap_or(true) },
+        start: start?,
+        end: end?,
+        distributed: distributed?,
+    })
+}
+
+fn shape(reader: &Reader<'_, '_>) -> Read<Curve> {
+    let length = reader.number("length");
+    let table = reader.table("curve")?;
+    match (length?, table) {
+        (Some(length), None) => Ok(Curve::Straight { length }),
+        (None, Some(table)) => curve(&table),
+        (None, None) => Err(reader.wrong_with_hint(
+            "the key `length` (or `curve`) is missing",
+            "for example `length = \"152.4 mm\"`",
+        )),
+        (Some(_), Some(table)) => {
+            let hint = match table.variant {
+                "curvature" => "give the length within `curve`",
+                _ => "the curve has its own length; `length` makes a straight beam",
+            };
+            Err(reader.wrong_at("length", "give `length` or `curve`, not both", hint))
+        }
+    }
+}
+
+fn end(reader: &Reader<'_, '_>, key: &str) -> Read<Option<End>> {
+    let Some(table) = reader.table(key)? else { return Ok(None) };
+    let body = table.body("body").needed();
+    let pose = pose(&table);
+    let hold = law(&table);
+    let placed = table.has("at") || table.has("rotation");
+    let pose = pose?;
+    Ok(Some(End { body: body?, placement: placed.then_some(pose), hold: hold? }))
+}
+
+fn distributed(reader: &Reader<'_, '_>) -> Read<Vec<Distributed>> {
+    let mut loads = Vec::new();
+    let mut result = Ok(());
+    for table in reader.tables("distributed")? {
+        match one(&table) {
+            Ok(load) => loads.push(load),
+            Err(Reported) => result = Err(Reported),
+        }
+    }
+    result.map(|()| loads)
+}
+
+fn one(table: &Reader<'_, '_>) -> Read<Distributed> {
+    let force = table.profiles("force");
+    let moment = table.profiles("moment");
+    let axes = table.choice("frame");
+    let (force, moment) = (force?, moment?);
+    if force.is_none() && moment.is_none() {
+        return Err(table.wrong_with_hint(
+            "a distributed load needs `force` or `moment`",
+            "for example `force = [0, 0, \"-2 N/m\"]`",
+        ));
+    }
+    let none = || [0.0; 3].map(Profile::from);
+    Ok(Distributed {
+        force: force.unwrap_or_else(none),
+        moment: moment.unwrap_or_else(none),
+        axes: if axes? == Some("section") { LoadAxes::Section } else { LoadAxes::Global },
+    })
+}

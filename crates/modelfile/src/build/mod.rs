@@ -1,0 +1,134 @@
+//! Tables to the model, one file for each group of tables.
+
+mod beam;
+mod body;
+mod curve;
+mod load;
+mod material;
+mod output;
+
+use crate::context::Context;
+use crate::format::{FILE, Key, Named, Shape, Table};
+use crate::parameters;
+use crate::reader::Reader;
+use crate::tree::{Entry, Value};
+use flexura_model::{Model, Parameter, name_problem};
+use flexura_spatial::Vector3;
+
+/// Reads the whole file. None: something is wrong, which has been recorded.
+pub(crate) fn model(context: &mut Context<'_>, overrides: &[(String, String)]) -> Option<Model> {
+    let root = context.root;
+    parameters::evaluate(context, named_entries(context, "parameter"), overrides);
+    let context = &*context;
+    let file = Reader::open_node(context, root, &(0..0), &FILE, "").ok()?;
+    let mut model = Model {
+        name: file.text("name").ok().flatten().unwrap_or_default().to_string(),
+        gravity: file.vector("gravity").ok().flatten().unwrap_or_else(Vector3::zeros),
+        ..Model::default()
+    };
+    for entry in named_entries(context, "parameter") {
+        if let Some(Some(quantity)) = context.parameters.get(&entry.key) {
+            model.parameters.push(Parameter {
+                name: entry.key.clone(),
+                value: quantity.value,
+                unit: quantity.kind.dimension().unit(),
+            });
+        }
+    }
+    model.materials = each(context, "material", material::material);
+    model.sections = each(context, "section", material::section);
+    model.bodies = each(context, "body", body::body);
+    model.beams = each(context, "beam", beam::beam);
+    model.joints = each(context, "joint", body::joint);
+    model.springs = each(context, "spring", load::spring);
+    model.masses = each(context, "mass", load::mass);
+    model.loads = each(context, "load", load::load);
+    for entry in named_entries(context, "output") {
+        name(context, "output", entry);
+        if let Ok(output) = output::output(context, entry, &model) {
+            model.outputs.push(output);
+        }
+    }
+    if context.any_problem() {
+        return None;
+    }
+    for issue in model.validate() {
+        let span = root.locate(&issue.path).unwrap_or(0..0);
+        let mut problem = context.problem(&span, &issue.path, issue.message);
+        problem.hint = issue.hint;
+        context.record(problem);
+    }
+    (!context.any_problem()).then_some(model)
+}
+
+/// The entries of a table of named things; what is no table has been recorded on the way.
+pub(crate) fn named_entries<'a>(context: &Context<'a>, word: &str) -> &'a [Entry] {
+    let Some(entry) = context.root.get(word) else { return &[] };
+    if !matches!(entry.node.value, Value::Table(_)) {
+        let message = format!("expected named tables, found {}", entry.node.kind());
+        let hint = match FILE.keys.iter().find(|key| key.name == word) {
+            Some(Key { shape: Shape::NamedTables(_), .. }) => {
+                format!("write `[{word}.NAME]` and the keys below it")
+            }
+            _ => format!("write `[{word}]` and `NAME = ...` below it"),
+        };
+        context.wrong_with_hint(&entry.node.span, word, message, hint);
+    }
+    entry.node.entries()
+}
+
+fn name(context: &Context<'_>, word: &str, entry: &Entry) {
+    let path = format!("{word}.{}", entry.key);
+    if let Some(problem) = name_problem(&entry.key) {
+        context.wrong(&entry.key_span, &path, format!("the name `{}` {problem}", entry.key));
+    }
+    if word == "body" && entry.key == "ground" {
+        let message = "`ground` is the fixed world and cannot be the name of a body";
+        context.wrong_with_hint(&entry.key_span, &path, message, "it is there without being defined");
+    }
+}
+
+/// Builds each named thing. Where one fails the list is short, but then nothing is made of it.
+fn each<'c, 'a, T>(
+    context: &'c Context<'a>,
+    word: &'static str,
+    build: fn(&Reader<'c, 'a>, String) -> crate::context::Read<T>,
+) -> Vec<T> {
+    let table: &'static Table = match FILE.keys.iter().find(|key| key.name == word) {
+        Some(Key { shape: Shape::NamedTables(table), .. }) => table,
+        _ => return Vec::new(),
+    };
+    let mut built = Vec::new();
+    for entry in named_entries(context, word) {
+        name(context, word, entry);
+        let path = format!("{word}.{}", entry.key);
+        if let Ok(reader) = Reader::open(context, entry, table, &path)
+            && let Ok(thing) = build(&reader, entry.key.clone())
+        {
+            built.push(thing);
+        }
+    }
+    built
+}
+
+/// What nothing refers to.
+pub(crate) fn unused(context: &Context<'_>) -> Vec<crate::report::Problem> {
+    let mut warnings = Vec::new();
+    let kinds = [
+        ("parameter", ""),
+        ("material", ""),
+        ("section", ""),
+        (Named::Body.word(), " and nothing holds or loads it"),
+    ];
+    for (word, more) in kinds {
+        for entry in context.root.get(word).map_or(&[][..], |entry| entry.node.entries()) {
+            if !context.is_used(word, &entry.key) {
+                let path = format!("{word}.{}", entry.key);
+                let message = format!("the {word} `{}` is never used{more}", entry.key);
+                warnings.push(context.problem(&entry.key_span, &path, message).warning());
+            }
+        }
+    }
+    warnings.sort_by_key(|warning| warning.span.start);
+    warnings
+}

@@ -1,0 +1,276 @@
+//! What every reader shares: the text, the parameters, the names, and the problems found so far.
+
+use crate::format::Named;
+use crate::report::{MOST, Problem, Report, Source};
+use crate::tree::{Node, Value};
+use flexura_expression::{Binding, Expression, ExpressionError, Kind, Lowered, Quantity, Reference, nearest};
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A problem has been recorded; whoever gets this need not say more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reported;
+
+pub(crate) type Read<T> = Result<T, Reported>;
+
+/// Turns "missing" into [`Reported`] where a key is required: that was recorded on opening the table.
+pub(crate) trait Needed<T> {
+    fn needed(self) -> Read<T>;
+}
+
+impl<T> Needed<T> for Read<Option<T>> {
+    fn needed(self) -> Read<T> {
+        self?.ok_or(Reported)
+    }
+}
+
+/// A parameter's value; None where it is wrong, which has been recorded.
+pub(crate) type Parameters = BTreeMap<String, Option<Quantity>>;
+
+pub(crate) struct Context<'a> {
+    pub source: &'a Arc<Source>,
+    pub folder: &'a Path,
+    pub root: &'a Node,
+    pub parameters: Parameters,
+    names: BTreeMap<Named, BTreeMap<&'a str, usize>>,
+    problems: RefCell<Vec<Problem>>,
+    count: Cell<usize>,
+    used: RefCell<BTreeSet<(&'static str, String)>>,
+}
+
+impl<'a> Context<'a> {
+    pub(crate) fn new(source: &'a Arc<Source>, folder: &'a Path, root: &'a Node) -> Self {
+        let mut names = BTreeMap::new();
+        for named in [Named::Material, Named::Section, Named::Beam, Named::Body, Named::Joint, Named::Spring]
+        {
+            let entries = root.get(named.word()).map_or(&[][..], |entry| entry.node.entries());
+            let positions = entries.iter().enumerate().map(|(i, entry)| (entry.key.as_str(), i)).collect();
+            names.insert(named, positions);
+        }
+        Self {
+            source,
+            folder,
+            root,
+            parameters: Parameters::new(),
+            names,
+            problems: RefCell::new(Vec::new()),
+            count: Cell::new(0),
+            used: RefCell::new(BTreeSet::new()),
+        }
+    }
+
+    /// Records a problem; beyond the most that are kept, it is only counted.
+    pub(crate) fn record(&self, problem: Problem) -> Reported {
+        let full = self.is_full();
+        self.count.set(self.count.get() + 1);
+        // The list is sorted by place only later, hence some slack.
+        if !full {
+            self.problems.borrow_mut().push(problem);
+        }
+        Reported
+    }
+
+    /// Are there so many problems that further ones are only counted?
+    pub(crate) fn is_full(&self) -> bool {
+        self.count.get() >= 4 * MOST
+    }
+
+    pub(crate) fn problem(&self, span: &Range<usize>, path: &str, message: impl Into<String>) -> Problem {
+        if self.is_full() {
+            // Finding line and column takes a walk through the text, and no one will see them.
+            return Problem::of_file(&self.source.name, message);
+        }
+        Problem::at(self.source, span.clone(), path, message)
+    }
+
+    /// Records a problem of the model file.
+    pub(crate) fn wrong(&self, span: &Range<usize>, path: &str, message: impl Into<String>) -> Reported {
+        self.record(self.problem(span, path, message))
+    }
+
+    pub(crate) fn wrong_with_hint(
+        &self,
+        span: &Range<usize>,
+        path: &str,
+        message: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> Reported {
+        self.record(self.problem(span, path, message).hint(hint))
+    }
+
+    pub(crate) fn any_problem(&self) -> bool {
+        self.count.get() > 0
+    }
+
+    /// What was found, in the order of the file.
+    pub(crate) fn into_report(self) -> Report {
+        let count = self.count.get();
+        let mut problems = self.problems.into_inner();
+        let kept = problems.len();
+        problems.sort_by_key(|problem| {
+            (problem.source.as_ref().is_none_or(|source| source.name != self.source.name), problem.span.start)
+        });
+        // One mistake may be met twice, as in an output of three components.
+        problems.dedup();
+        let count = count - (kept - problems.len());
+        Report::input_of(problems, count)
+    }
+
+    /// Names that something refers to, by kind.
+    pub(crate) fn is_used(&self, word: &'static str, name: &str) -> bool {
+        self.used.borrow().contains(&(word, name.to_string()))
+    }
+
+    pub(crate) fn mark_used(&self, word: &'static str, name: &str) {
+        self.used.borrow_mut().insert((word, name.to_string()));
+    }
+
+    pub(crate) fn position(&self, named: Named, name: &str) -> Option<usize> {
+        self.mark_used(named.word(), name);
+        let key = if named == Named::BodyOrGround { Named::Body } else { named };
+        self.names.get(&key).and_then(|names| names.get(name)).copied()
+    }
+
+    pub(crate) fn names(&self, named: Named) -> Vec<&'a str> {
+        let key = if named == Named::BodyOrGround { Named::Body } else { named };
+        let mut names: Vec<&str> =
+            self.names.get(&key).map(|names| names.keys().copied().collect()).unwrap_or_default();
+        if named == Named::BodyOrGround {
+            names.push("ground");
+        }
+        names
+    }
+
+    /// There is nothing of this name.
+    pub(crate) fn unknown_name(&self, named: Named, name: &str) -> (String, String) {
+        let word = named.word();
+        if self.is_full() {
+            return (String::new(), String::new());
+        }
+        (format!("there is no {word} `{name}`"), suggest(name, &self.names(named), word))
+    }
+
+    /// The value of a parameter; an error with a hint if there is none. `silent` is set where its own
+    /// mistake was recorded before.
+    pub(crate) fn parameter(
+        &self,
+        reference: &Reference,
+        text: &str,
+        silent: &Cell<bool>,
+    ) -> Result<Quantity, ExpressionError> {
+        let Some(name) = reference.name() else {
+            let shown = &text[reference.span.clone()];
+            return Err(ExpressionError::new(
+                format!("`{shown}` cannot be used here"),
+                reference.span.clone(),
+            )
+            .with_hint("results such as `body.slider.position.x` can only be used in [output]"));
+        };
+        self.mark_used("parameter", name);
+        match self.parameters.get(name) {
+            Some(Some(quantity)) => Ok(*quantity),
+            Some(None) => {
+                silent.set(true);
+                Err(ExpressionError::new(String::new(), reference.span.clone()))
+            }
+            None => {
+                if self.is_full() {
+                    return Err(ExpressionError::new(String::new(), reference.span.clone()));
+                }
+                let names: Vec<&str> = self.parameters.keys().map(String::as_str).collect();
+                Err(ExpressionError::new(format!("there is no parameter `{name}`"), reference.span.clone())
+                    .with_hint(suggest(name, &names, "parameter")))
+            }
+        }
+    }
+
+    /// Records what is wrong with an expression that stands in `node`.
+    pub(crate) fn expression_error(&self, node: &Node, path: &str, error: &ExpressionError) -> Reported {
+        let span = self.inner(node, &error.span);
+        let mut problem = self.problem(&span, path, error.message.clone());
+        problem.hint = error.hint.clone();
+        self.record(problem)
+    }
+
+    /// The byte range in the file of a range within a text value. Where escapes make the two differ, the
+    /// whole value.
+    pub(crate) fn inner(&self, node: &Node, range: &Range<usize>) -> Range<usize> {
+        let Value::Text(text) = &node.value else { return node.span.clone() };
+        let Some(raw) = self.source.text.get(node.span.clone()) else { return node.span.clone() };
+        let Some(offset) = raw.find(text.as_str()).filter(|_| !text.is_empty()) else {
+            return node.span.clone();
+        };
+        let start = node.span.start + offset + range.start;
+        let end = node.span.start + offset + range.end;
+        if start == end { start.saturating_sub(1).max(node.span.start)..end.max(start) } else { start..end }
+    }
+
+    /// Parses and binds an expression of parameters, and perhaps of a variable.
+    pub(crate) fn lower(
+        &self,
+        node: &Node,
+        path: &str,
+        text: &str,
+        variable: Option<(&str, Kind)>,
+    ) -> Read<Lowered> {
+        let parsed = match variable {
+            Some((name, _)) => Expression::parse_with_variable(text, name),
+            None => Expression::parse(text),
+        };
+        let expression = parsed.map_err(|error| self.expression_error(node, path, &error))?;
+        let silent = Cell::new(false);
+        let lowered = expression.lower(&mut |reference| match variable {
+            Some((name, kind)) if reference.name() == Some(name) => Ok(Binding::Variable(kind)),
+            _ => self.parameter(reference, text, &silent).map(Binding::Value),
+        });
+        lowered.map_err(|error| {
+            if silent.get() {
+                return Reported;
+            }
+            self.expression_error(node, path, &error)
+        })
+    }
+
+    /// A constant: a number, or an expression of parameters.
+    pub(crate) fn quantity(&self, node: &Node, path: &str, infinite: bool) -> Read<Option<Quantity>> {
+        let quantity = match &node.value {
+            Value::Number(value) => Quantity::plain(*value),
+            Value::Text(text) => {
+                let lowered = self.lower(node, path, text, None)?;
+                if let Some(span) = &lowered.not_finite {
+                    let span = self.inner(node, span);
+                    return Err(self.wrong(&span, path, "the expression gives no finite number"));
+                }
+                Quantity { value: lowered.constant().unwrap_or(f64::NAN), kind: lowered.kind }
+            }
+            _ => return Ok(None),
+        };
+        if quantity.value.is_nan() {
+            return Err(self.wrong(&node.span, path, "NaN is not a number"));
+        }
+        if quantity.value.is_infinite() && !infinite {
+            return Err(self.wrong(&node.span, path, "must be a finite number"));
+        }
+        Ok(Some(quantity))
+    }
+}
+
+/// "did you mean ...", or what there is.
+pub(crate) fn suggest(name: &str, names: &[&str], word: &str) -> String {
+    // Among very many names, comparing each would take longer than the hint is worth.
+    if let Some(near) = nearest(name, names.iter().copied().take(2000)) {
+        return format!("did you mean `{near}`?");
+    }
+    match names {
+        [] => format!("the file defines no {word}"),
+        [only] => format!("the only {word} is `{only}`"),
+        _ if names.len() <= 8 => {
+            let list: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+            format!("there are {}", list.join(", "))
+        }
+        _ => format!("the file defines {} of the kind {word}", names.len()),
+    }
+}

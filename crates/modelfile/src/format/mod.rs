@@ -1,0 +1,208 @@
+//! The model file's format, written once: the reader, the JSON Schema and the reference page all follow it.
+//!
+//! The statics in [`tables`] say which keys there are, what stands behind each, its dimension, whether it
+//! is needed, and give an example. What a builder does with the values is not said here.
+
+mod tables;
+
+use flexura_expression::Dimension;
+pub(crate) use tables::*;
+
+/// A table of the file.
+#[derive(Debug)]
+pub(crate) struct Table {
+    pub doc: &'static str,
+    pub keys: &'static [Key],
+    /// Further keys that depend on the value of one.
+    pub variants: Option<Variants>,
+}
+
+#[derive(Debug)]
+pub(crate) struct Variants {
+    /// The key that tells them apart; a text, one of the names in `list`.
+    pub by: &'static str,
+    pub by_doc: &'static str,
+    /// The one that is meant when the key is missing; None: the key is required.
+    pub default: Option<&'static str>,
+    pub list: &'static [Variant],
+}
+
+#[derive(Debug)]
+pub(crate) struct Variant {
+    pub name: &'static str,
+    pub doc: &'static str,
+    pub keys: &'static [Key],
+}
+
+#[derive(Debug)]
+pub(crate) struct Key {
+    pub name: &'static str,
+    pub shape: Shape,
+    pub need: Need,
+    pub doc: &'static str,
+    /// As it would be written behind the equals sign.
+    pub example: &'static str,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Need {
+    Required,
+    Optional,
+    /// What is meant when it is missing, in words or as it would be written.
+    Default(&'static str),
+    /// Required here or in every row of `along`.
+    Along,
+}
+
+/// Things that other things refer to by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Named {
+    Material,
+    Section,
+    Beam,
+    Body,
+    /// A body or the ground.
+    BodyOrGround,
+    Joint,
+    Spring,
+}
+
+impl Named {
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Named::Material => "material",
+            Named::Section => "section",
+            Named::Beam => "beam",
+            Named::Body | Named::BodyOrGround => "body",
+            Named::Joint => "joint",
+            Named::Spring => "spring",
+        }
+    }
+}
+
+/// What stands behind a key.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Shape {
+    /// A finite number.
+    Number(Dimension),
+    /// Three numbers.
+    Vector(Dimension),
+    /// Two numbers.
+    Range(Dimension),
+    /// Four numbers.
+    Quaternion,
+    /// A number or an expression of s.
+    Profile(Dimension),
+    /// The same, where `inf` is allowed.
+    Stiffness(Dimension),
+    /// Three numbers or expressions of s.
+    Profiles(Dimension),
+    /// Six rows of six numbers.
+    Matrix6,
+    /// Three numbers or three rows of three.
+    Inertia,
+    /// An expression of the curve's parameter.
+    Function(Dimension),
+    /// A fraction of the length, or a length.
+    Station,
+    /// A point on a body, or a place along a beam.
+    PointOrStation,
+    /// Any text.
+    Text,
+    /// true or false.
+    Flag,
+    /// One of these words.
+    Choice(&'static [(&'static str, &'static str)]),
+    /// The name of something.
+    Name(Named),
+    /// The name of a body, or a table that places a frame on it.
+    Placed(&'static Table),
+    /// A table.
+    Table(&'static Table),
+    /// A table, or a list of such tables.
+    Tables(&'static Table),
+    /// A table of named tables.
+    NamedTables(&'static Table),
+    /// A table of named numbers.
+    NamedNumbers,
+    /// A table of named expressions over results.
+    NamedOutputs,
+    /// A list of points.
+    Points,
+    /// Rows of dimensions along the beam, keys as in the same table.
+    Along,
+    /// The number 1.
+    Version,
+}
+
+impl Shape {
+    pub(crate) fn dimension(&self) -> Dimension {
+        match self {
+            Shape::Number(d)
+            | Shape::Vector(d)
+            | Shape::Range(d)
+            | Shape::Profile(d)
+            | Shape::Stiffness(d)
+            | Shape::Profiles(d)
+            | Shape::Function(d) => *d,
+            _ => Dimension::NUMBER,
+        }
+    }
+
+    /// What it is, for the reference page.
+    pub(crate) fn describe(&self) -> String {
+        let dimension = self.dimension();
+        let numbers = |count: &str, plural: &str| match dimension.unit().as_str() {
+            "" => format!("{count} {plural}"),
+            unit => format!("{count} {plural} ({unit})"),
+        };
+        match self {
+            Shape::Number(_) => dimension.to_string(),
+            Shape::Vector(_) => numbers("three", "numbers"),
+            Shape::Range(_) => numbers("two", "numbers"),
+            Shape::Quaternion => "four numbers".into(),
+            Shape::Profile(_) => format!("{dimension} or an expression of s"),
+            Shape::Stiffness(_) => format!("{dimension}, `inf`, or an expression of s"),
+            Shape::Profiles(_) => numbers("three", "numbers or expressions of s"),
+            Shape::Matrix6 => "six rows of six numbers".into(),
+            Shape::Inertia => "three moments of inertia (kg*m^2), or three rows of three".into(),
+            Shape::Function(_) => format!("an expression of the parameter; {dimension}"),
+            Shape::Station => "a fraction of the length, or a length with a unit".into(),
+            Shape::PointOrStation => "a point on the body, or a place along the beam".into(),
+            Shape::Text => "a text".into(),
+            Shape::Flag => "true or false".into(),
+            Shape::Choice(words) => {
+                words.iter().map(|(word, _)| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ")
+            }
+            Shape::Name(named) => format!("the name of a {}", named.word()),
+            Shape::Placed(_) => "the name of a body, or a table".into(),
+            Shape::Table(_) => "a table".into(),
+            Shape::Tables(_) => "a table, or a list of tables".into(),
+            Shape::NamedTables(_) => "named tables".into(),
+            Shape::NamedNumbers => "named numbers".into(),
+            Shape::NamedOutputs => "named expressions".into(),
+            Shape::Points => "a list of points, each three numbers (m)".into(),
+            Shape::Along => "a list of rows, each `at` and the dimensions there".into(),
+            Shape::Version => "the number 1".into(),
+        }
+    }
+
+    /// How an error names what it wanted.
+    pub(crate) fn wanted(&self) -> String {
+        match self {
+            Shape::Name(_) | Shape::Choice(_) => "a text".into(),
+            Shape::Vector(_) | Shape::Profiles(_) => "a list of 3 numbers".into(),
+            Shape::Range(_) => "a list of 2 numbers".into(),
+            Shape::Quaternion => "a list of 4 numbers".into(),
+            other => other.describe(),
+        }
+    }
+}
+
+impl Table {
+    /// Every key of the table, whatever the variant.
+    pub(crate) fn all_keys(&self) -> impl Iterator<Item = &'static Key> {
+        let variants = self.variants.iter().flat_map(|variants| variants.list.iter());
+        self.keys.iter().chain(variants.flat_map(|variant| variant.keys.iter()))
+    }
+}

@@ -1,0 +1,777 @@
+//! Every table of the file with its keys.
+
+use super::{Key, Named, Need, Shape, Table, Variant, Variants};
+use Need::{Along, Default, Optional, Required};
+use flexura_expression::Dimension as D;
+
+const fn key(name: &'static str, shape: Shape, need: Need, example: &'static str, doc: &'static str) -> Key {
+    Key { name, shape, need, doc, example }
+}
+
+const fn variant(name: &'static str, doc: &'static str, keys: &'static [Key]) -> Variant {
+    Variant { name, doc, keys }
+}
+
+const fn table(doc: &'static str, keys: &'static [Key]) -> Table {
+    Table { doc, keys, variants: None }
+}
+
+pub(crate) static FILE: Table = table(
+    "A compliant mechanism.",
+    &[
+        key("format", Shape::Version, Required, "1", "The version of the format."),
+        key("name", Shape::Text, Default("\"\""), "\"sensor attachment\"", "A title for people."),
+        key(
+            "gravity",
+            Shape::Vector(D::ACCELERATION),
+            Default("none"),
+            "[0, 0, \"-9.80665 m/s^2\"]",
+            "Gravity in global axes.",
+        ),
+        key(
+            "parameter",
+            Shape::NamedNumbers,
+            Optional,
+            "{ push = \"3 N\" }",
+            "Named numbers that expressions may use; they may refer to each other in any order, and be overridden by `--set`.",
+        ),
+        key("material", Shape::NamedTables(&MATERIAL), Optional, "{ steel = { ... } }", "Materials."),
+        key("section", Shape::NamedTables(&SECTION), Optional, "{ strip = { ... } }", "Cross sections."),
+        key("beam", Shape::NamedTables(&BEAM), Optional, "{ link = { ... } }", "Flexible beams."),
+        key(
+            "body",
+            Shape::NamedTables(&BODY),
+            Optional,
+            "{ slider = { ... } }",
+            "Rigid bodies; `ground` is there without being named.",
+        ),
+        key("joint", Shape::NamedTables(&JOINT), Optional, "{ way = { ... } }", "Joints between bodies."),
+        key(
+            "spring",
+            Shape::NamedTables(&SPRING),
+            Optional,
+            "{ ligament = { ... } }",
+            "Springs between two points.",
+        ),
+        key("mass", Shape::NamedTables(&MASS), Optional, "{ sensor = { ... } }", "Lumped masses on beams."),
+        key("load", Shape::NamedTables(&LOAD), Optional, "{ push = { ... } }", "Forces and moments."),
+        key(
+            "output",
+            Shape::NamedOutputs,
+            Optional,
+            "{ w = \"beam.link.end.position.z\" }",
+            "What to read off a result.",
+        ),
+    ],
+);
+
+pub(crate) static MATERIAL: Table = table(
+    "A linear elastic, isotropic material. Give `shear` or `poisson`.",
+    &[
+        key("young", Shape::Number(D::PRESSURE), Required, "\"207 GPa\"", "Young's modulus."),
+        key("shear", Shape::Number(D::PRESSURE), Optional, "\"79.3 GPa\"", "Shear modulus."),
+        key(
+            "poisson",
+            Shape::Number(D::NUMBER),
+            Optional,
+            "0.3",
+            "Poisson's ratio, above -1 and at most 0.5.",
+        ),
+        key("density", Shape::Number(D::DENSITY), Default("massless"), "\"7630 kg/m^3\"", "Density."),
+        key(
+            "yield_strength",
+            Shape::Number(D::PRESSURE),
+            Optional,
+            "\"1.1 GPa\"",
+            "Yield strength; enables the safety factor.",
+        ),
+    ],
+);
+
+const MASS_PER_LENGTH: Key = key(
+    "mass_per_length",
+    Shape::Profile(D::MASS_PER_LENGTH),
+    Default("massless"),
+    "\"20 g/m\"",
+    "Mass per length.",
+);
+
+pub(crate) static SECTION: Table = Table {
+    doc: "A cross section: e2 runs along the width, e3 along the height. Every dimension may be an expression of the arc length s.",
+    keys: &[
+        key(
+            "plane_strain",
+            Shape::Flag,
+            Default("false"),
+            "true",
+            "The strip is too wide to contract sideways: bending stiffness E/(1 - poisson^2).",
+        ),
+        key(
+            "along",
+            Shape::Along,
+            Optional,
+            "[{ at = 0, width = \"20 mm\" }, { at = 1, width = \"10 mm\" }]",
+            "Dimensions that vary along the beam, straight lines between the rows.",
+        ),
+    ],
+    variants: Some(Variants {
+        by: "shape",
+        by_doc: "The shape.",
+        default: None,
+        list: &[
+            variant(
+                "rectangle",
+                "A solid rectangle.",
+                &[
+                    key("width", Shape::Profile(D::LENGTH), Along, "\"20.32 mm\"", "Along e2."),
+                    key("height", Shape::Profile(D::LENGTH), Along, "\"0.254 mm\"", "Along e3."),
+                ],
+            ),
+            variant(
+                "circle",
+                "A solid circle.",
+                &[key("diameter", Shape::Profile(D::LENGTH), Along, "\"1.397 mm\"", "Diameter.")],
+            ),
+            variant(
+                "tube",
+                "A round tube.",
+                &[
+                    key("outer_diameter", Shape::Profile(D::LENGTH), Along, "\"3 mm\"", "Outer diameter."),
+                    key("inner_diameter", Shape::Profile(D::LENGTH), Along, "\"2 mm\"", "Inner diameter."),
+                ],
+            ),
+            variant(
+                "ellipse",
+                "A solid ellipse.",
+                &[
+                    key("width", Shape::Profile(D::LENGTH), Along, "\"20 mm\"", "Full axis along e2."),
+                    key("height", Shape::Profile(D::LENGTH), Along, "\"10 mm\"", "Full axis along e3."),
+                ],
+            ),
+            variant(
+                "stiffness",
+                "Stiffnesses given directly: EA, GJ, EI2, EI3 (and GA2, GA3 for a beam that shears), or `matrix`. No stress is reported.",
+                &[
+                    key("EA", Shape::Stiffness(D::FORCE), Along, "\"1e6 N\"", "Axial stiffness."),
+                    key(
+                        "GJ",
+                        Shape::Stiffness(D::BENDING_STIFFNESS),
+                        Along,
+                        "\"0.5 N*m^2\"",
+                        "Torsional stiffness.",
+                    ),
+                    key(
+                        "EI2",
+                        Shape::Stiffness(D::BENDING_STIFFNESS),
+                        Along,
+                        "\"0.7 N*m^2\"",
+                        "Stiffness of bending about e2.",
+                    ),
+                    key(
+                        "EI3",
+                        Shape::Stiffness(D::BENDING_STIFFNESS),
+                        Along,
+                        "\"0.7 N*m^2\"",
+                        "Stiffness of bending about e3.",
+                    ),
+                    key(
+                        "GA2",
+                        Shape::Stiffness(D::FORCE),
+                        Optional,
+                        "\"4e5 N\"",
+                        "Shear stiffness along e2, shear factor included.",
+                    ),
+                    key(
+                        "GA3",
+                        Shape::Stiffness(D::FORCE),
+                        Optional,
+                        "\"4e5 N\"",
+                        "Shear stiffness along e3, shear factor included.",
+                    ),
+                    key(
+                        "matrix",
+                        Shape::Matrix6,
+                        Optional,
+                        "[[1e6, 0, 0, 0, 0, 0], ...]",
+                        "The full symmetric stiffness, from (stretch, shear 2, shear 3, twist, bending 2, bending 3) to (F1, F2, F3, M1, M2, M3), instead of the keys above.",
+                    ),
+                    MASS_PER_LENGTH,
+                ],
+            ),
+        ],
+    }),
+};
+
+pub(crate) static BEAM: Table = table(
+    "A flexible beam. Give `length` (straight along the x axis of its start frame) or `curve`.",
+    &[
+        key(
+            "material",
+            Shape::Name(Named::Material),
+            Optional,
+            "\"steel\"",
+            "Its material; only a section given as a stiffness needs none.",
+        ),
+        key("section", Shape::Name(Named::Section), Required, "\"strip\"", "Its cross section."),
+        key("length", Shape::Number(D::LENGTH), Optional, "\"152.4 mm\"", "Length of a straight beam."),
+        key(
+            "curve",
+            Shape::Table(&CURVE),
+            Optional,
+            "{ kind = \"arc\", radius = \"10 mm\", angle = \"90 deg\" }",
+            "The stress-free shape. It is moved rigidly so that its start frame, e1 its tangent, is the beam's start frame.",
+        ),
+        key(
+            "frame",
+            Shape::Table(&FRAME),
+            Default("{ kind = \"natural\" }"),
+            "{ kind = \"direction\", along = [0, 0, 1] }",
+            "How the section's axes run along the curve.",
+        ),
+        key(
+            "start",
+            Shape::Table(&END),
+            Optional,
+            "{ body = \"ground\", hold = \"clamp\" }",
+            "Where s = 0 is held; without it the start is free.",
+        ),
+        key(
+            "end",
+            Shape::Table(&END),
+            Optional,
+            "{ body = \"slider\", hold = \"clamp\" }",
+            "Where s = L is held; without it the end is free.",
+        ),
+        key("shear", Shape::Flag, Default("false"), "true", "Sections may shear against the axis."),
+        key("extension", Shape::Flag, Default("true"), "false", "The axis may stretch."),
+        key(
+            "distributed",
+            Shape::Tables(&DISTRIBUTED),
+            Optional,
+            "{ force = [0, 0, \"-2 N/m\"] }",
+            "Loads per undeformed length.",
+        ),
+    ],
+);
+
+pub(crate) static CURVE: Table = Table {
+    doc: "A stress-free shape.",
+    keys: &[],
+    variants: Some(Variants {
+        by: "kind",
+        by_doc: "The kind of curve.",
+        default: None,
+        list: &[
+            variant(
+                "arc",
+                "A circular arc that bends towards +e2.",
+                &[
+                    key("radius", Shape::Number(D::LENGTH), Required, "\"50 mm\"", "Radius."),
+                    key("angle", Shape::Number(D::ANGLE), Required, "\"90 deg\"", "Angle swept."),
+                ],
+            ),
+            variant(
+                "helix",
+                "A helix, e2 pointing to its axis; positive pitch is right-handed.",
+                &[
+                    key("radius", Shape::Number(D::LENGTH), Required, "\"7.239 mm\"", "Radius."),
+                    key("pitch", Shape::Number(D::LENGTH), Required, "\"5.715 mm\"", "Rise per turn."),
+                    key(
+                        "turns",
+                        Shape::Number(D::ANGLE),
+                        Required,
+                        "10",
+                        "Number of turns: a plain number, or an angle with its unit.",
+                    ),
+                ],
+            ),
+            variant(
+                "parametric",
+                "A curve given by its coordinates as functions of a parameter.",
+                &[
+                    key("x", Shape::Function(D::LENGTH), Required, "\"10 mm*cos(t)\"", "First coordinate."),
+                    key("y", Shape::Function(D::LENGTH), Required, "\"5 mm*sin(t)\"", "Second coordinate."),
+                    key("z", Shape::Function(D::LENGTH), Default("0"), "\"1 mm*t\"", "Third coordinate."),
+                    key(
+                        "parameter",
+                        Shape::Text,
+                        Default("\"t\""),
+                        "\"u\"",
+                        "The parameter's name in the expressions.",
+                    ),
+                    key(
+                        "range",
+                        Shape::Range(D::NUMBER),
+                        Required,
+                        "[0, \"2*pi\"]",
+                        "First and last value of the parameter; it bears their unit.",
+                    ),
+                ],
+            ),
+            variant(
+                "points",
+                "A smooth curve (cubic spline) through points.",
+                &[
+                    key(
+                        "points",
+                        Shape::Points,
+                        Optional,
+                        "[[0, 0, 0], [\"10 mm\", 0, 0], [\"20 mm\", \"5 mm\", 0]]",
+                        "The points. Give them here or in a file.",
+                    ),
+                    key(
+                        "file",
+                        Shape::Text,
+                        Optional,
+                        "\"points.csv\"",
+                        "A CSV file with the columns x, y, z, beside the model file.",
+                    ),
+                    key(
+                        "unit",
+                        Shape::Text,
+                        Default("\"m\""),
+                        "\"mm\"",
+                        "The unit of the numbers in the file.",
+                    ),
+                ],
+            ),
+            variant(
+                "curvature",
+                "Given by its curvatures.",
+                &[
+                    key(
+                        "k1",
+                        Shape::Profile(D::CURVATURE),
+                        Default("0"),
+                        "\"2 1/m\"",
+                        "Twist rate about e1.",
+                    ),
+                    key("k2", Shape::Profile(D::CURVATURE), Default("0"), "\"2 1/m\"", "Curvature about e2."),
+                    key(
+                        "k3",
+                        Shape::Profile(D::CURVATURE),
+                        Default("0"),
+                        "\"2 + 30*s\"",
+                        "Curvature about e3.",
+                    ),
+                    key("length", Shape::Number(D::LENGTH), Required, "\"100 mm\"", "Length."),
+                ],
+            ),
+        ],
+    }),
+};
+
+pub(crate) static FRAME: Table = Table {
+    doc: "How the section's axes e2, e3 run along the curve. A curve of kind `curvature` says it itself.",
+    keys: &[],
+    variants: Some(Variants {
+        by: "kind",
+        by_doc: "The rule.",
+        default: None,
+        list: &[
+            variant(
+                "natural",
+                "The curve's own choice: no turn for a straight beam, Frenet for arc and helix, rotation-minimising otherwise.",
+                &[],
+            ),
+            variant(
+                "frenet",
+                "At a constant angle to the curve's normal; fails where the curve is straight.",
+                &[key(
+                    "offset",
+                    Shape::Number(D::ANGLE),
+                    Default("0"),
+                    "\"30 deg\"",
+                    "The angle from e2 to the normal.",
+                )],
+            ),
+            variant(
+                "rotation_minimising",
+                "Turns about the axis only by `twist`.",
+                &[
+                    key(
+                        "start",
+                        Shape::Vector(D::NUMBER),
+                        Default("the curve's y axis"),
+                        "[0, 1, 0]",
+                        "Direction of e2 at the start, in the curve's own coordinates.",
+                    ),
+                    key(
+                        "twist",
+                        Shape::Profile(D::ANGLE),
+                        Optional,
+                        "\"90 deg*s/100 mm\"",
+                        "Turning about e1, an expression of s that begins with zero.",
+                    ),
+                ],
+            ),
+            variant(
+                "direction",
+                "e2 stays as near as possible to a direction.",
+                &[key(
+                    "along",
+                    Shape::Vector(D::NUMBER),
+                    Required,
+                    "[0, 0, 1]",
+                    "The direction, in the curve's own coordinates.",
+                )],
+            ),
+        ],
+    }),
+};
+
+pub(crate) static DISTRIBUTED: Table = table(
+    "A load per undeformed length; components are numbers or expressions of s.",
+    &[
+        key(
+            "force",
+            Shape::Profiles(D::STIFFNESS),
+            Default("none"),
+            "[0, 0, \"-2 N/m\"]",
+            "Force per length.",
+        ),
+        key(
+            "moment",
+            Shape::Profiles(D::FORCE),
+            Default("none"),
+            "[\"0.1 N*m/m\", 0, 0]",
+            "Moment per length.",
+        ),
+        key(
+            "frame",
+            Shape::Choice(&[
+                ("global", "dead: constant in global axes"),
+                ("section", "follower: constant in the section's axes"),
+            ]),
+            Default("\"global\""),
+            "\"section\"",
+            "The axes in which it is given.",
+        ),
+    ],
+);
+
+const AT: Key =
+    key("at", Shape::Vector(D::LENGTH), Default("[0, 0, 0]"), "[\"20 mm\", 0, 0]", "Position on the body.");
+const ROTATION_KEY: Key = key(
+    "rotation",
+    Shape::Table(&ROTATION),
+    Default("none"),
+    "{ axis = [0, 1, 0], angle = \"10 deg\" }",
+    "Orientation on the body.",
+);
+const AXIS: Key = key(
+    "axis",
+    Shape::Vector(D::NUMBER),
+    Required,
+    "[1, 0, 0]",
+    "The axis, in the fixed frame; need not be of unit length.",
+);
+
+const ANGLE_KEYS: &[Key] = &[
+    AXIS,
+    key("coordinate", Shape::Number(D::ANGLE), Optional, "\"30 deg\"", "Drives the joint to this angle."),
+    key(
+        "effort",
+        Shape::Number(D::MOMENT),
+        Default("0"),
+        "\"0.2 N*m\"",
+        "Loads the joint by this moment on the child.",
+    ),
+    key(
+        "stiffness",
+        Shape::Number(D::ANGULAR_STIFFNESS),
+        Default("0"),
+        "\"0.69 N*m/rad\"",
+        "A spring on the angle.",
+    ),
+    key("rest", Shape::Number(D::ANGLE), Default("0"), "\"10 deg\"", "Where the spring is relaxed."),
+    key(
+        "limits",
+        Shape::Table(&ANGLE_LIMITS),
+        Optional,
+        "{ range = [\"-30 deg\", \"30 deg\"] }",
+        "The range of the angle.",
+    ),
+];
+const LENGTH_KEYS: &[Key] = &[
+    AXIS,
+    key("coordinate", Shape::Number(D::LENGTH), Optional, "\"85 mm\"", "Drives the joint to this position."),
+    key(
+        "effort",
+        Shape::Number(D::FORCE),
+        Default("0"),
+        "\"3 N\"",
+        "Loads the joint by this force on the child.",
+    ),
+    key("stiffness", Shape::Number(D::STIFFNESS), Default("0"), "\"200 N/m\"", "A spring on the position."),
+    key("rest", Shape::Number(D::LENGTH), Default("0"), "\"5 mm\"", "Where the spring is relaxed."),
+    key(
+        "limits",
+        Shape::Table(&LENGTH_LIMITS),
+        Optional,
+        "{ range = [0, \"20 mm\"] }",
+        "The range of the position.",
+    ),
+];
+const BALL_KEYS: &[Key] = &[
+    key(
+        "coordinate",
+        Shape::Vector(D::ANGLE),
+        Optional,
+        "[0, 0, \"30 deg\"]",
+        "Drives the joint to this rotation vector.",
+    ),
+    key(
+        "effort",
+        Shape::Vector(D::MOMENT),
+        Default("none"),
+        "[0, 0, \"0.2 N*m\"]",
+        "Loads the joint by this moment.",
+    ),
+    key(
+        "stiffness",
+        Shape::Number(D::ANGULAR_STIFFNESS),
+        Default("0"),
+        "\"0.69 N*m/rad\"",
+        "A spring on each component of the rotation vector.",
+    ),
+    key(
+        "rest",
+        Shape::Vector(D::ANGLE),
+        Default("none"),
+        "[0, 0, \"10 deg\"]",
+        "Where the spring is relaxed.",
+    ),
+];
+
+pub(crate) static ANGLE_LIMITS: Table = table(
+    "A range that is reported when left, and pushes back when it has a stiffness.",
+    &[
+        key(
+            "range",
+            Shape::Range(D::ANGLE),
+            Required,
+            "[\"-30 deg\", \"30 deg\"]",
+            "Least and greatest angle.",
+        ),
+        key(
+            "stiffness",
+            Shape::Number(D::ANGULAR_STIFFNESS),
+            Optional,
+            "\"10 N*m/rad\"",
+            "Stiffness beyond the range.",
+        ),
+    ],
+);
+pub(crate) static LENGTH_LIMITS: Table = table(
+    "A range that is reported when left, and pushes back when it has a stiffness.",
+    &[
+        key("range", Shape::Range(D::LENGTH), Required, "[0, \"20 mm\"]", "Least and greatest position."),
+        key("stiffness", Shape::Number(D::STIFFNESS), Optional, "\"10 N/mm\"", "Stiffness beyond the range."),
+    ],
+);
+
+pub(crate) static END: Table = Table {
+    doc: "How a beam's end is held. Without `at` and `rotation`, the start sits at the body's origin in the body's axes, and the end attaches stress-free where the rest beam ends. With one of the two, the other is zero.",
+    keys: &[
+        key("body", Shape::Name(Named::BodyOrGround), Required, "\"ground\"", "What holds it."),
+        AT,
+        ROTATION_KEY,
+    ],
+    variants: Some(Variants {
+        by: "hold",
+        by_doc: "What the hold leaves free.",
+        default: None,
+        list: &[
+            variant("clamp", "Nothing.", &[]),
+            variant("weld", "Nothing; the same as `clamp`.", &[]),
+            variant("pin", "Turning about the point.", BALL_KEYS),
+            variant("spherical", "Turning about the point; the same as `pin`.", BALL_KEYS),
+            variant("revolute", "Turning about an axis.", ANGLE_KEYS),
+            variant("prismatic", "Sliding along an axis.", LENGTH_KEYS),
+        ],
+    }),
+};
+
+pub(crate) static ROTATION: Table = table(
+    "An orientation: `axis` and `angle`, or `quat_wxyz`, or `rpy`.",
+    &[
+        key(
+            "axis",
+            Shape::Vector(D::NUMBER),
+            Optional,
+            "[0, 1, 0]",
+            "Axis of the turn; need not be of unit length.",
+        ),
+        key("angle", Shape::Number(D::ANGLE), Optional, "\"10 deg\"", "Angle of the turn."),
+        key("quat_wxyz", Shape::Quaternion, Optional, "[1, 0, 0, 0]", "A unit quaternion, real part first."),
+        key(
+            "rpy",
+            Shape::Vector(D::ANGLE),
+            Optional,
+            "[0, 0, \"90 deg\"]",
+            "Roll, pitch, yaw: Rz(yaw) Ry(pitch) Rx(roll).",
+        ),
+    ],
+);
+
+pub(crate) static BODY: Table = table(
+    "A rigid body in its initial pose.",
+    &[
+        key(
+            "at",
+            Shape::Vector(D::LENGTH),
+            Default("[0, 0, 0]"),
+            "[\"152.4 mm\", 0, 0]",
+            "Initial position.",
+        ),
+        key(
+            "rotation",
+            Shape::Table(&ROTATION),
+            Default("none"),
+            "{ axis = [0, 1, 0], angle = \"10 deg\" }",
+            "Initial orientation.",
+        ),
+        key("mass", Shape::Number(D::MASS), Default("massless"), "\"0.3 kg\"", "Mass."),
+        key(
+            "center_of_mass",
+            Shape::Vector(D::LENGTH),
+            Default("[0, 0, 0]"),
+            "[0, 0, \"5 mm\"]",
+            "Centre of mass in the body's axes.",
+        ),
+        key(
+            "inertia",
+            Shape::Inertia,
+            Default("0"),
+            "[1e-5, 1e-5, 2e-5]",
+            "About the centre of mass in the body's axes; used by motion only.",
+        ),
+    ],
+);
+
+pub(crate) static JOINT_PLACE: Table = table(
+    "A frame on a body.",
+    &[key("body", Shape::Name(Named::BodyOrGround), Required, "\"ground\"", "The body."), AT, ROTATION_KEY],
+);
+
+pub(crate) static JOINT: Table = Table {
+    doc: "A joint between a parent, which carries the fixed frame, and a child, which carries the moving frame. A child without a place starts at coordinate zero. Drive a joint by `coordinate` or load it by `effort`, not both.",
+    keys: &[
+        key(
+            "parent",
+            Shape::Placed(&JOINT_PLACE),
+            Required,
+            "\"ground\"",
+            "Carries the fixed frame; at its origin unless placed.",
+        ),
+        key(
+            "child",
+            Shape::Placed(&JOINT_PLACE),
+            Required,
+            "\"slider\"",
+            "Carries the moving frame; where the fixed frame is initially unless placed.",
+        ),
+    ],
+    variants: Some(Variants {
+        by: "kind",
+        by_doc: "What the joint leaves free.",
+        default: None,
+        list: &[
+            variant("weld", "Nothing.", &[]),
+            variant("revolute", "Turning about an axis.", ANGLE_KEYS),
+            variant("prismatic", "Sliding along an axis.", LENGTH_KEYS),
+            variant("spherical", "Turning about a point.", BALL_KEYS),
+        ],
+    }),
+};
+
+pub(crate) static PLACE: Table = table(
+    "A point of a body or of a beam.",
+    &[
+        key(
+            "body",
+            Shape::Name(Named::BodyOrGround),
+            Optional,
+            "\"ground\"",
+            "The body. Give a body or a beam.",
+        ),
+        key("beam", Shape::Name(Named::Beam), Optional, "\"link\"", "The beam. Give a body or a beam."),
+        key(
+            "at",
+            Shape::PointOrStation,
+            Optional,
+            "[\"20 mm\", 0, 0]",
+            "The point on the body (its origin unless given), or the place along the beam.",
+        ),
+    ],
+);
+
+pub(crate) static SPRING: Table = Table {
+    doc: "A spring between two points.",
+    keys: &[
+        key(
+            "from",
+            Shape::Table(&PLACE),
+            Required,
+            "{ body = \"ground\", at = [0, 0, \"50 mm\"] }",
+            "One end.",
+        ),
+        key("to", Shape::Table(&PLACE), Required, "{ beam = \"link\", at = 0.5 }", "The other end."),
+    ],
+    variants: Some(Variants {
+        by: "law",
+        by_doc: "Tension against length.",
+        default: Some("linear"),
+        list: &[variant(
+            "linear",
+            "Tension in proportion to the stretch.",
+            &[
+                key("stiffness", Shape::Number(D::STIFFNESS), Required, "\"200 N/m\"", "Stiffness."),
+                key(
+                    "rest_length",
+                    Shape::Number(D::LENGTH),
+                    Default("the initial distance"),
+                    "\"40 mm\"",
+                    "Length at which it is relaxed.",
+                ),
+            ],
+        )],
+    }),
+};
+
+pub(crate) static MASS: Table = table(
+    "A lumped mass on a beam.",
+    &[
+        key("beam", Shape::Name(Named::Beam), Required, "\"link\"", "The beam."),
+        key("at", Shape::Station, Required, "0.5", "Where along it."),
+        key("mass", Shape::Number(D::MASS), Required, "\"50 g\"", "The mass."),
+    ],
+);
+
+pub(crate) static LOAD: Table = table(
+    "A force and a moment on a body or a beam.",
+    &[
+        key("body", Shape::Name(Named::Body), Optional, "\"slider\"", "The body. Give a body or a beam."),
+        key("beam", Shape::Name(Named::Beam), Optional, "\"link\"", "The beam. Give a body or a beam."),
+        key(
+            "at",
+            Shape::PointOrStation,
+            Optional,
+            "1",
+            "The point on the body (its origin unless given), or the place along the beam.",
+        ),
+        key("force", Shape::Vector(D::FORCE), Default("none"), "[\"-push\", 0, 0]", "Force."),
+        key("moment", Shape::Vector(D::MOMENT), Default("none"), "[0, 0, \"0.1 N*m\"]", "Moment."),
+        key(
+            "frame",
+            Shape::Choice(&[
+                ("global", "dead: constant in global axes"),
+                ("local", "follower: turns with the body or the section"),
+            ]),
+            Default("\"global\""),
+            "\"local\"",
+            "Dead or follower.",
+        ),
+    ],
+);

@@ -1,0 +1,111 @@
+//! The page of all keys, made from the format's descriptor.
+
+use crate::format::{FILE, Key, Need, Shape, Table};
+use flexura_expression::{constant_table, function_table, unit_table};
+
+/// The reference of the model file's keys, units and functions, in Markdown.
+pub fn reference_markdown() -> String {
+    let mut page = String::from(
+        "# The model file\n\n\
+         A TOML file. Every number is a plain number in SI units and radians, a text with a unit\n\
+         (`\"20.32 mm\"`), or an expression of parameters (`\"2*push + 1 N\"`). A unit stands directly behind\n\
+         a number. Dimensions are checked: a plain number may stand for any dimension, two numbers with\n\
+         units must agree. Where a quantity may vary along a beam, it may be an expression of the arc length\n\
+         `s` (metres); if that mentions no unit at all, it is in SI units.\n\n",
+    );
+    let mut done: Vec<&'static Table> = Vec::new();
+    section(&mut page, "The file", &FILE);
+    let mut open: Vec<(String, &'static Table)> = below("", &FILE);
+    open.reverse();
+    while let Some((title, table)) = open.pop() {
+        if done.iter().any(|known| std::ptr::eq(*known, table)) {
+            continue;
+        }
+        done.push(table);
+        section(&mut page, &format!("`{title}`"), table);
+        let mut inner = below(&title, table);
+        inner.reverse();
+        open.extend(inner);
+    }
+    page.push_str(RESULTS);
+    words(&mut page);
+    page
+}
+
+fn below(title: &str, table: &'static Table) -> Vec<(String, &'static Table)> {
+    let path = |name: &str| if title.is_empty() { name.to_string() } else { format!("{title}.{name}") };
+    let inner = |key: &'static Key| match key.shape {
+        Shape::NamedTables(table) => Some((path(&format!("{}.NAME", key.name)), table)),
+        Shape::Table(table) | Shape::Tables(table) | Shape::Placed(table) => Some((path(key.name), table)),
+        _ => None,
+    };
+    table.all_keys().filter_map(inner).collect()
+}
+
+fn section(page: &mut String, title: &str, table: &'static Table) {
+    page.push_str(&format!("## {title}\n\n{}\n\n", table.doc));
+    if !table.keys.is_empty() {
+        rows(page, table.keys);
+    }
+    let Some(variants) = &table.variants else { return };
+    let default = variants.default.map_or(String::new(), |default| format!(" Default: `\"{default}\"`."));
+    page.push_str(&format!("`{}`: {}{default}\n\n", variants.by, variants.by_doc));
+    for variant in variants.list {
+        page.push_str(&format!("### `{} = \"{}\"`\n\n{}\n\n", variants.by, variant.name, variant.doc));
+        if !variant.keys.is_empty() {
+            rows(page, variant.keys);
+        }
+    }
+}
+
+fn rows(page: &mut String, keys: &[Key]) {
+    page.push_str("| key | what | needed | example | |\n|---|---|---|---|---|\n");
+    for key in keys {
+        let need = match key.need {
+            Need::Required => "yes".to_string(),
+            Need::Along => "yes, here or in `along`".to_string(),
+            Need::Optional => "no".to_string(),
+            Need::Default(default) => format!("default: {default}"),
+        };
+        let cells = [
+            format!("`{}`", key.name),
+            key.shape.describe(),
+            need,
+            format!("`{}`", key.example),
+            key.doc.to_string(),
+        ];
+        page.push_str(&format!("| {} |\n", cells.map(|cell| cell.replace('|', "\\|")).join(" | ")));
+        if let Shape::Choice(choices) = key.shape {
+            for (word, doc) in choices {
+                page.push_str(&format!("| | `\"{word}\"` | | | {doc} |\n"));
+            }
+        }
+    }
+    page.push('\n');
+}
+
+const RESULTS: &str = "## Results in `[output]`\n\n\
+    | what | quantities |\n|---|---|\n\
+    | `beam.NAME[0.5]`, `beam.NAME[30 mm]`, `beam.NAME.start`, `beam.NAME.end` | `position`, `rotation`, `tangent`, `force`, `moment` (each `.x`, `.y`, `.z`), `curvature` (`.k1`, `.k2`, `.k3`), `stretch`, `strain`, `stress` |\n\
+    | `body.NAME` | `position`, `rotation` (each `.x`, `.y`, `.z`) |\n\
+    | `joint.NAME` | `coordinate`, `effort` (of a spherical joint each `.x`, `.y`, `.z`), `force`, `moment` (each `.x`, `.y`, `.z`) |\n\
+    | `spring.NAME` | `length`, `tension` |\n\
+    | `model` | `energy` |\n\n\
+    A vector without a component gives three numbers. A name that is no plain word is quoted: `beam.\"left-arm\".end.position`.\n\n";
+
+fn words(page: &mut String) {
+    page.push_str("## Units\n\n| unit | prefixes | in SI |\n|---|---|---|\n");
+    for unit in unit_table() {
+        let prefixes: Vec<&str> =
+            unit.prefixes.iter().map(|(name, _)| *name).filter(|name| *name != "μ").collect();
+        let si = unit.dimension.unit();
+        page.push_str(&format!("| `{}` | {} | {} {si} |\n", unit.symbol, prefixes.join(" "), unit.factor));
+    }
+    page.push_str("\n## Functions and constants\n\n| name | what |\n|---|---|\n");
+    for (name, doc) in function_table() {
+        page.push_str(&format!("| `{name}` | {doc} |\n"));
+    }
+    for (name, value) in constant_table() {
+        page.push_str(&format!("| `{name}` | {value} |\n"));
+    }
+}

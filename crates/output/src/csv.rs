@@ -1,0 +1,65 @@
+//! `beams.csv`: one row for each sample of each beam.
+
+use crate::OutputError;
+use crate::document::section_quaternions;
+use flexura_model::Model;
+use flexura_post::Evaluation;
+use flexura_solution::Solution;
+use std::fmt::Write;
+
+const HEADER: &str = "beam,s[m],x[m],y[m],z[m],qw,qx,qy,qz,Fx[N],Fy[N],Fz[N],Mx[N*m],My[N*m],Mz[N*m],\
+k1[1/m],k2[1/m],k3[1/m],stretch,strain,stress[Pa]\n";
+
+/// The table of all beams' samples. Strain and stress are left empty for a section given as a stiffness.
+///
+/// # Errors
+/// [`OutputError::NotFinite`] names the first number that is NaN or infinite.
+pub fn beams_csv(model: &Model, solution: &Solution, evaluation: &Evaluation) -> Result<String, OutputError> {
+    let mut text = String::from(HEADER);
+    for ((beam, result), stress) in model.beams.iter().zip(&solution.beams).zip(&evaluation.beams) {
+        let name = quoted(&beam.name);
+        let rotations = section_quaternions(&result.samples);
+        for (i, sample) in result.samples.iter().enumerate() {
+            text.push_str(&name);
+            let [position, force, moment, curvature]: [[f64; 3]; 4] = [
+                sample.pose.position.into(),
+                sample.wrench.force.into(),
+                sample.wrench.moment.into(),
+                sample.curvature.into(),
+            ];
+            let groups: [&[f64]; 7] =
+                [&[sample.s], &position, &rotations[i], &force, &moment, &curvature, &[sample.strain.x]];
+            for value in groups.into_iter().flatten() {
+                push(&mut text, *value, &beam.name, i)?;
+            }
+            match stress {
+                Some(stress) => {
+                    push(&mut text, stress.samples[i].strain, &beam.name, i)?;
+                    push(&mut text, stress.samples[i].von_mises, &beam.name, i)?;
+                }
+                None => text.push_str(",,"),
+            }
+            text.push('\n');
+        }
+    }
+    Ok(text)
+}
+
+fn push(text: &mut String, value: f64, beam: &str, sample: usize) -> Result<(), OutputError> {
+    if !value.is_finite() {
+        return Err(OutputError::NotFinite { field: format!("beams.{beam} at sample {sample}"), value });
+    }
+    text.push(',');
+    // Debug prints the shortest text that reads back as the same number, with an exponent where that is
+    // shorter; writing to a String cannot fail.
+    let _ = write!(text, "{value:?}");
+    Ok(())
+}
+
+fn quoted(name: &str) -> String {
+    if name.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", name.replace('"', "\"\""))
+    } else {
+        name.to_owned()
+    }
+}

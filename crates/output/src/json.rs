@@ -1,0 +1,90 @@
+//! JSON text that a person can still read: objects indented, every list on one line.
+
+use crate::OutputError;
+use serde::{Serialize, Serializer};
+use serde_json::ser::Formatter;
+use std::io;
+
+/// Values by name, in the order of the model file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named<T>(pub Vec<(String, T)>);
+
+impl<T> Named<T> {
+    /// Collects one entry for each item, or the first error.
+    pub(crate) fn collect<I: Iterator>(
+        items: I,
+        entry: impl FnMut(I::Item) -> Result<(String, T), OutputError>,
+    ) -> Result<Self, OutputError> {
+        items.map(entry).collect::<Result<_, _>>().map(Named)
+    }
+
+    /// The value of that name.
+    pub fn get(&self, name: &str) -> Option<&T> {
+        self.0.iter().find(|(key, _)| key == name).map(|(_, value)| value)
+    }
+}
+
+impl<T: Serialize> Serialize for Named<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+/// The text of a document, every number with all its digits, ending in a line break.
+///
+/// # Errors
+/// [`OutputError::Json`] when a value cannot be written as JSON.
+pub fn to_json(document: &impl Serialize) -> Result<String, OutputError> {
+    let mut bytes = Vec::new();
+    let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Layout::default());
+    document.serialize(&mut serializer)?;
+    bytes.push(b'\n');
+    // Only the names of the model are not ASCII, and they came in as strings.
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+#[derive(Default)]
+struct Layout {
+    depth: usize,
+    is_empty: bool,
+}
+
+impl Layout {
+    fn new_line<W: ?Sized + io::Write>(&self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b"\n")?;
+        (0..self.depth).try_for_each(|_| writer.write_all(b"  "))
+    }
+}
+
+impl Formatter for Layout {
+    fn begin_object<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.depth += 1;
+        self.is_empty = true;
+        writer.write_all(b"{")
+    }
+
+    fn begin_object_key<W: ?Sized + io::Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        if !first {
+            writer.write_all(b",")?;
+        }
+        self.is_empty = false;
+        self.new_line(writer)
+    }
+
+    fn begin_object_value<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b": ")
+    }
+
+    fn end_object<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.depth -= 1;
+        if !self.is_empty {
+            self.new_line(writer)?;
+        }
+        self.is_empty = false;
+        writer.write_all(b"}")
+    }
+
+    fn begin_array_value<W: ?Sized + io::Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        if first { Ok(()) } else { writer.write_all(b", ") }
+    }
+}

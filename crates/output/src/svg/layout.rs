@@ -1,0 +1,173 @@
+//! Where the three views stand on the sheet, their common scale, and their ticks.
+
+use flexura_spatial::Vector3;
+
+/// Height of a line of the legend, px.
+pub const LEGEND_LINE: f64 = 19.0;
+const LEGEND_WIDTH: f64 = 180.0;
+/// Room for tick labels and axis name, px.
+const LEFT: f64 = 72.0;
+const BELOW: f64 = 64.0;
+const TOP: f64 = 82.0;
+/// The drawing itself, without labels, is at most this large, px.
+const LARGEST: [f64; 2] = [840.0, 640.0];
+/// Ticks are this far apart at least, px; closer where a narrow view would have too few.
+const TICK_DISTANCE: f64 = 52.0;
+const CLOSE_TICKS: f64 = 36.0;
+
+/// One view.
+pub struct Panel {
+    /// Shown above it.
+    pub title: &'static str,
+    /// Which global axis runs across and which one up.
+    pub axes: [usize; 2],
+    /// Left, top, width, height in px.
+    pub frame: [f64; 4],
+    low: [f64; 2],
+    high: [f64; 2],
+    scale: f64,
+}
+
+impl Panel {
+    /// Where a point lies on the sheet.
+    pub fn point(&self, point: &Vector3<f64>) -> [f64; 2] {
+        [self.horizontal(point[self.axes[0]]), self.vertical(point[self.axes[1]])]
+    }
+
+    /// A direction on the sheet; shorter than 1 when it points out of the view.
+    pub fn direction(&self, direction: &Vector3<f64>) -> [f64; 2] {
+        [direction[self.axes[0]], -direction[self.axes[1]]]
+    }
+
+    /// Component of a direction towards the eye.
+    pub fn depth(&self, direction: &Vector3<f64>) -> f64 {
+        match self.axes {
+            [0, 1] => direction.z,
+            [0, _] => -direction.y,
+            _ => direction.x,
+        }
+    }
+
+    /// Does a place on the sheet lie within the view?
+    pub fn holds(&self, [x, y]: [f64; 2]) -> bool {
+        let [left, top, width, height] = self.frame;
+        (left..=left + width).contains(&x) && (top..=top + height).contains(&y)
+    }
+
+    /// Pixel column of a coordinate across.
+    pub fn horizontal(&self, value: f64) -> f64 {
+        self.frame[0] + self.scale * (value - self.low[0])
+    }
+
+    /// Pixel row of a coordinate upwards.
+    pub fn vertical(&self, value: f64) -> f64 {
+        self.frame[1] + self.scale * (self.high[1] - value)
+    }
+}
+
+/// The sheet.
+pub struct Sheet {
+    /// px.
+    pub width: f64,
+    /// px.
+    pub height: f64,
+    /// Left edge of the drawing, px.
+    pub left: f64,
+    /// Top view, front view, side view.
+    pub panels: [Panel; 3],
+    /// Top left corner of the legend, px.
+    pub legend: [f64; 2],
+    /// Unit of the tick labels.
+    pub unit: &'static str,
+    /// How many of that unit a metre is.
+    per_metre: f64,
+    /// Distance of ticks, m.
+    step: f64,
+}
+
+impl Sheet {
+    /// Lays out the views of what lies between `low` and `high` (m).
+    pub fn new([low, high]: [Vector3<f64>; 2], legend_lines: usize) -> Self {
+        let extent = high - low;
+        let largest = if extent.max() > 0.0 { extent.max() } else { 1.0 };
+        // A view that would be a bare line gets some height, and every view a margin.
+        let middle = (low + high) * 0.5;
+        let half = extent.map(|e| 0.5 * e.max(0.16 * largest) + 0.09 * largest);
+        let (low, high) = (middle - half, middle + half);
+        let size = half * 2.0;
+        let scale = (LARGEST[0] / (size.x + size.y)).min(LARGEST[1] / (size.y + size.z));
+        let (width, depth, height) = (scale * size.x, scale * size.y, scale * size.z);
+
+        let wide = nice_step(TICK_DISTANCE / scale);
+        let step = if size.min() < 2.0 * wide { nice_step(CLOSE_TICKS / scale) } else { wide };
+
+        let legend_height = LEGEND_LINE * legend_lines as f64;
+        let second_column = LEFT + width + LEFT;
+        let second_row = TOP + depth.max(legend_height) + BELOW;
+        let panel = |title, axes: [usize; 2], left, top, width, height| Panel {
+            title,
+            axes,
+            frame: [left, top, width, height],
+            low: axes.map(|axis| low[axis]),
+            high: axes.map(|axis| high[axis]),
+            scale,
+        };
+        let panels = [
+            panel("top view (xy)", [0, 1], LEFT, TOP, width, depth),
+            panel("front view (xz)", [0, 2], LEFT, second_row, width, height),
+            panel("side view (yz)", [1, 2], second_column, second_row, depth, height),
+        ];
+        let (unit, per_metre) = match largest {
+            size if size >= 1e3 => ("km", 1e-3),
+            size if size >= 1.0 => ("m", 1.0),
+            size if size >= 1e-3 => ("mm", 1e3),
+            size if size >= 1e-6 => ("µm", 1e6),
+            _ => ("nm", 1e9),
+        };
+        Self {
+            width: second_column + depth.max(LEGEND_WIDTH) + 24.0,
+            height: second_row + height + 44.0,
+            left: LEFT,
+            panels,
+            legend: [second_column, TOP],
+            unit,
+            per_metre,
+            step,
+        }
+    }
+
+    /// Ticks of a panel along a global axis: coordinate (m) and label.
+    pub fn ticks(&self, axis: usize, panel: &Panel) -> Vec<(f64, String)> {
+        let side = if panel.axes[0] == axis { 0 } else { 1 };
+        let first = (panel.low[side] / self.step).ceil() as i64;
+        let last = (panel.high[side] / self.step).floor() as i64;
+        let step = self.step * self.per_metre;
+        let decimals = (-step.log10() - 1e-9).ceil().max(0.0) as usize;
+        let label = |i: i64| if i == 0 { "0".to_owned() } else { format!("{:.decimals$}", i as f64 * step) };
+        (first..=last).map(|i| (i as f64 * self.step, label(i).replace('-', "−"))).collect()
+    }
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that is at least `least`.
+fn nice_step(least: f64) -> f64 {
+    let power = 10f64.powf(least.log10().floor());
+    [1.0, 2.0, 5.0].into_iter().map(|m| m * power).find(|step| *step >= least).unwrap_or(10.0 * power)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_one_two_or_five() {
+        for (least, step) in [(0.9, 1.0), (1.1, 2.0), (2.0, 2.0), (3.0, 5.0), (0.06, 0.1)] {
+            assert!((nice_step(least) - step).abs() < 1e-12, "{least}");
+        }
+    }
+
+    #[test]
+    fn a_shape_without_any_extent_still_gets_a_sheet() {
+        let sheet = Sheet::new([Vector3::zeros(); 2], 1);
+        assert!(sheet.width.is_finite() && sheet.height < 2000.0);
+    }
+}

@@ -1,0 +1,210 @@
+//! The symbols: supports, joints, bodies, springs, loads.
+
+use super::canvas::{Canvas, Style};
+use super::layout::Panel;
+use super::scene::{BodyMark, JointMark, LoadMark, Support};
+use super::{FAINT, INK, LOAD};
+use flexura_model::JointKind;
+
+/// Arrows of loads have this length in the view that shows them unforeshortened, px.
+const ARROW: f64 = 36.0;
+
+/// A beam's end on the ground.
+pub fn support(canvas: &mut Canvas, panel: &Panel, support: &Support) {
+    let at = panel.point(&support.point);
+    if support.kind != JointKind::Weld {
+        stand(canvas, at);
+        canvas.circle(at, 3.6, "#ffffff", &Style::line(INK, 1.3));
+        return;
+    }
+    let outward = panel.direction(&support.outward);
+    let length = outward[0].hypot(outward[1]);
+    if length > 0.35 {
+        clamp(canvas, at, [outward[0] / length, outward[1] / length], 11.0);
+    } else {
+        wall(canvas, at);
+    }
+}
+
+/// A wall across `outward` with hatching behind it.
+pub fn clamp(canvas: &mut Canvas, at: [f64; 2], outward: [f64; 2], half: f64) {
+    let along = [-outward[1], outward[0]];
+    let place =
+        |a: f64, o: f64| [at[0] + a * along[0] + o * outward[0], at[1] + a * along[1] + o * outward[1]];
+    canvas.line(place(-half, 0.0), place(half, 0.0), &Style::line(INK, 1.8));
+    let hatch = Style::line(INK, 0.9);
+    let count = (half / 2.2).round() as i32;
+    for i in 0..=count {
+        let a = half * (2.0 * f64::from(i) / f64::from(count) - 1.0);
+        canvas.line(place(a, 0.0), place(a - 4.0, 6.0), &hatch);
+    }
+}
+
+/// A wall that is seen from the front.
+fn wall(canvas: &mut Canvas, at: [f64; 2]) {
+    const HALF: f64 = 8.0;
+    let corner = |x: f64, y: f64| [at[0] + x * HALF, at[1] + y * HALF];
+    let outline = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+    canvas.polygon(&outline, "none", &Style::line(INK, 1.1));
+    let hatch = Style::line(INK, 0.7);
+    for i in -2..=2 {
+        // The diagonal x + y = c, cut at the square's edges.
+        let c = 0.7 * f64::from(i);
+        let (low, high) = ((c - 1.0f64).max(-1.0), (c + 1.0f64).min(1.0));
+        canvas.line(corner(low, c - low), corner(high, c - high), &hatch);
+    }
+}
+
+/// The triangle below a pin on the ground.
+fn stand(canvas: &mut Canvas, at: [f64; 2]) {
+    let below = |x: f64, y: f64| [at[0] + x, at[1] + y];
+    canvas.polygon(&[at, below(-7.0, 12.0), below(7.0, 12.0)], "#ffffff", &Style::line(INK, 1.1));
+    clamp(canvas, below(0.0, 12.0), [0.0, 1.0], 10.0);
+}
+
+/// A joint between two bodies.
+pub fn joint(canvas: &mut Canvas, panel: &Panel, joint: &JointMark) {
+    let at = panel.point(&joint.point);
+    let axis = panel.direction(&joint.axis);
+    let length = axis[0].hypot(axis[1]);
+    let outline = Style::line(INK, 1.3);
+    match joint.kind {
+        JointKind::Weld => {}
+        JointKind::Prismatic if length > 0.35 => {
+            let (u, v) = ([axis[0] / length, axis[1] / length], [-axis[1] / length, axis[0] / length]);
+            let place = |a: f64, b: f64| [at[0] + a * u[0] + b * v[0], at[1] + a * u[1] + b * v[1]];
+            for side in [-6.0, 6.0] {
+                canvas.line(place(-17.0, side), place(17.0, side), &outline);
+                if joint.is_grounded {
+                    for i in 0..6 {
+                        let a = -15.0 + 6.0 * f64::from(i);
+                        let end = place(a - 3.0, side + 4.0 * f64::signum(side));
+                        canvas.line(place(a, side), end, &Style::line(INK, 0.8));
+                    }
+                }
+            }
+        }
+        JointKind::Prismatic => {
+            let corner = |x: f64, y: f64| [at[0] + 6.0 * x, at[1] + 6.0 * y];
+            let square = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+            canvas.polygon(&square, "none", &outline);
+        }
+        JointKind::Revolute | JointKind::Spherical => {
+            if joint.is_grounded {
+                stand(canvas, at);
+            }
+            let is_side_view = joint.kind == JointKind::Revolute && panel.depth(&joint.axis).abs() < 0.5;
+            if is_side_view && length > 0.0 {
+                let (u, v) = ([axis[0] / length, axis[1] / length], [-axis[1] / length, axis[0] / length]);
+                let corner = |a: f64, b: f64| [at[0] + a * u[0] + b * v[0], at[1] + a * u[1] + b * v[1]];
+                let pin = [corner(-7.0, -3.0), corner(7.0, -3.0), corner(7.0, 3.0), corner(-7.0, 3.0)];
+                canvas.polygon(&pin, "#ffffff", &outline);
+            } else {
+                canvas.circle(at, 4.2, "#ffffff", &outline);
+            }
+            if joint.kind == JointKind::Spherical {
+                canvas.circle(at, 1.4, INK, &Style::line(INK, 0.5));
+            }
+        }
+    }
+}
+
+/// A body's origin: hollow where it was, filled where it is, with its name.
+pub fn body(canvas: &mut Canvas, panel: &Panel, body: &BodyMark, labels: &mut Vec<[f64; 2]>) {
+    let (before, now) = (panel.point(&body.initial), panel.point(&body.deformed));
+    if (before[0] - now[0]).hypot(before[1] - now[1]) > 2.0 {
+        diamond(canvas, before, false);
+    }
+    diamond(canvas, now, true);
+    let width = 6.2 * body.name.chars().count() as f64;
+    let is_near_the_edge = now[0] + 9.0 + width > panel.frame[0] + panel.frame[2];
+    let (anchor, x) = if is_near_the_edge { ("end", now[0] - 6.0) } else { ("start", now[0] + 6.0) };
+    // Labels of bodies that lie behind each other go one above the other.
+    let mut label = [x, now[1] - 13.0];
+    while labels.iter().any(|other| (other[1] - label[1]).abs() < 12.0 && (other[0] - label[0]).abs() < 60.0)
+    {
+        label[1] -= 12.0;
+    }
+    labels.push(label);
+    canvas.text(label, &body.name, anchor, 11.0, INK);
+}
+
+/// The marker of a body.
+pub fn diamond(canvas: &mut Canvas, at: [f64; 2], is_filled: bool) {
+    const HALF: f64 = 5.5;
+    let corners =
+        [[at[0] - HALF, at[1]], [at[0], at[1] - HALF], [at[0] + HALF, at[1]], [at[0], at[1] + HALF]];
+    if is_filled {
+        canvas.polygon(&corners, INK, &Style::line("#ffffff", 1.0));
+    } else {
+        canvas.polygon(&corners, "#ffffff", &Style::line(FAINT, 1.1));
+    }
+}
+
+/// A spring as a zigzag line.
+pub fn spring(canvas: &mut Canvas, from: [f64; 2], to: [f64; 2]) {
+    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+    let length = dx.hypot(dy);
+    let style = Style::line("#666666", 1.2);
+    if length < 24.0 {
+        canvas.line(from, to, &style);
+        return;
+    }
+    let (u, v) = ([dx / length, dy / length], [-dy / length, dx / length]);
+    let place = |a: f64, b: f64| [from[0] + a * u[0] + b * v[0], from[1] + a * u[1] + b * v[1]];
+    const TURNS: i32 = 6;
+    let coil = 0.7 * length;
+    let mut points = vec![from, place(0.5 * (length - coil), 0.0)];
+    for i in 0..2 * TURNS {
+        let a = 0.5 * (length - coil) + coil * (f64::from(i) + 0.5) / f64::from(2 * TURNS);
+        points.push(place(a, if i % 2 == 0 { 5.0 } else { -5.0 }));
+    }
+    points.push(place(0.5 * (length + coil), 0.0));
+    points.push(to);
+    canvas.polyline(points.into_iter(), &style);
+}
+
+/// Force and moment of a point load.
+pub fn load(canvas: &mut Canvas, panel: &Panel, load: &LoadMark) {
+    let at = panel.point(&load.point);
+    let force = panel.direction(&load.force);
+    if force[0].hypot(force[1]) > 0.2 {
+        let ahead = [at[0] + ARROW * force[0], at[1] + ARROW * force[1]];
+        let behind = [at[0] - ARROW * force[0], at[1] - ARROW * force[1]];
+        // The force pulls at its point, unless the arrow would leave the view: then it pushes.
+        let (from, to) = if panel.holds(ahead) { (at, ahead) } else { (behind, at) };
+        arrow(canvas, from, to, LOAD);
+    }
+    let depth = panel.depth(&load.moment);
+    let moment = panel.direction(&load.moment);
+    if depth.abs() > 0.5 {
+        turn(canvas, at, depth > 0.0);
+    } else if moment[0].hypot(moment[1]) > 0.2 {
+        // A moment's vector carries two heads.
+        let tip = |length: f64| [at[0] + length * moment[0], at[1] + length * moment[1]];
+        arrow(canvas, at, tip(ARROW), LOAD);
+        arrow(canvas, at, tip(ARROW - 8.0), LOAD);
+    }
+}
+
+/// A straight arrow.
+pub fn arrow(canvas: &mut Canvas, from: [f64; 2], to: [f64; 2], colour: &'static str) {
+    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+    let length = dx.hypot(dy);
+    let (u, v) = ([dx / length, dy / length], [-dy / length, dx / length]);
+    let place = |a: f64, b: f64| [to[0] - a * u[0] + b * v[0], to[1] - a * u[1] + b * v[1]];
+    canvas.line(from, place(4.0, 0.0), &Style::line(colour, 1.8));
+    canvas.polygon(&[to, place(8.0, 3.4), place(8.0, -3.4)], colour, &Style::line(colour, 0.6));
+}
+
+/// Three quarters of a turn about a point, counter-clockwise or clockwise as seen.
+fn turn(canvas: &mut Canvas, at: [f64; 2], is_counter_clockwise: bool) {
+    const RADIUS: f64 = 15.0;
+    let sense = if is_counter_clockwise { -1.0 } else { 1.0 };
+    let place = |angle: f64| {
+        let angle = sense * angle.to_radians();
+        [at[0] + RADIUS * angle.cos(), at[1] + RADIUS * angle.sin()]
+    };
+    canvas.polyline((0..=24).map(|i| place(10.0 * f64::from(i))), &Style::line(LOAD, 1.8));
+    arrow(canvas, place(236.0), place(262.0), LOAD);
+}

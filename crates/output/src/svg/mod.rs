@@ -1,0 +1,212 @@
+//! `shape.svg`: the initial and the deformed shape in the three principal views.
+//!
+//! The views stand as in an engineering drawing and share one scale:
+//!
+//! ```text
+//!   top  (x, y)   legend
+//!   front(x, z)   side (y, z)
+//! ```
+//!
+//! so x lines up between top and front, z between front and side.
+
+mod canvas;
+mod layout;
+mod marks;
+mod scene;
+
+use canvas::{Canvas, Style, escape};
+use flexura_model::Model;
+use flexura_solution::{Solution, Status};
+use layout::{Panel, Sheet};
+use scene::{Knot, Scene};
+
+/// Colours that readers with any kind of colour vision tell apart (Okabe and Ito).
+const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
+const INK: &str = "#222222";
+const FAINT: &str = "#9a9a9a";
+const LOAD: &str = "#b2182b";
+/// Beams that the legend names one by one.
+const LEGEND_BEAMS: usize = 6;
+
+/// The picture of a solution, as the text of an SVG file.
+pub fn shape_svg(model: &Model, solution: &Solution) -> String {
+    let scene = Scene::new(model, solution);
+    let entries = legend_entries(&scene);
+    let sheet = Sheet::new(scene.bounds(), entries.len());
+    let mut canvas = Canvas::new(sheet.width, sheet.height);
+
+    let title = if model.name.is_empty() { "mechanism" } else { &model.name };
+    let room = (sheet.width - sheet.left) / 9.5;
+    canvas.raw(&format!(
+        "<text x=\"{:.1}\" y=\"26\" font-size=\"16\" font-weight=\"bold\">{}</text>",
+        sheet.left,
+        escape(&shortened(title, room as usize))
+    ));
+    let state = match solution.status {
+        Status::Converged => "in equilibrium".to_owned(),
+        status => {
+            format!(
+                "{}, {:.3} % of the load",
+                status.word().replace('_', " "),
+                100.0 * solution.load_fraction
+            )
+        }
+    };
+    canvas.text([sheet.left, 44.0], &format!("{state}; displacements to scale"), "start", 11.0, "#666666");
+
+    for panel in &sheet.panels {
+        draw_axes(&mut canvas, &sheet, panel);
+        draw_scene(&mut canvas, panel, &scene);
+    }
+    draw_legend(&mut canvas, sheet.legend, &entries);
+    canvas.finish()
+}
+
+fn draw_axes(canvas: &mut Canvas, sheet: &Sheet, panel: &Panel) {
+    let [x, y, width, height] = panel.frame;
+    canvas.raw(&format!(
+        "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"#fcfcfc\" stroke=\"#bbbbbb\"/>"
+    ));
+    canvas.raw(&format!(
+        "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"12\" font-weight=\"bold\">{}</text>",
+        y - 8.0,
+        panel.title
+    ));
+    let grid = Style::line("#e9e9e9", 0.8);
+    for (value, label) in sheet.ticks(panel.axes[0], panel) {
+        let at = panel.horizontal(value);
+        canvas.line([at, y], [at, y + height], &grid);
+        canvas.text([at, y + height + 14.0], &label, "middle", 10.5, "#444444");
+    }
+    for (value, label) in sheet.ticks(panel.axes[1], panel) {
+        let at = panel.vertical(value);
+        canvas.line([x, at], [x + width, at], &grid);
+        canvas.text([x - 5.0, at + 3.5], &label, "end", 10.5, "#444444");
+    }
+    let names = ["x", "y", "z"];
+    let [across, up] = panel.axes.map(|axis| format!("{} / {}", names[axis], sheet.unit));
+    canvas.text([x + 0.5 * width, y + height + 30.0], &across, "middle", 11.5, INK);
+    canvas.raw(&format!(
+        "<text transform=\"translate({:.1} {:.1}) rotate(-90)\" text-anchor=\"middle\" font-size=\"11.5\">{up}</text>",
+        x - 44.0,
+        y + 0.5 * height
+    ));
+}
+
+fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
+    let initial = Style::line(FAINT, 1.2).dashed("5 4");
+    for body in &scene.bodies {
+        for arm in &body.arms {
+            canvas.line(panel.point(&body.initial), panel.point(&arm.initial), &initial);
+        }
+    }
+    for beam in &scene.beams {
+        canvas.curve(&pieces(panel, &beam.initial), &initial);
+    }
+    for spring in &scene.springs {
+        marks::spring(canvas, panel.point(&spring[0]), panel.point(&spring[1]));
+    }
+    let arm_style = Style::line("#555555", 2.6);
+    for body in &scene.bodies {
+        for arm in &body.arms {
+            canvas.line(panel.point(&body.deformed), panel.point(&arm.deformed), &arm_style);
+        }
+    }
+    for (i, beam) in scene.beams.iter().enumerate() {
+        let style = Style::line(COLOURS[i % COLOURS.len()], 2.4);
+        canvas.curve(&pieces(panel, &beam.deformed), &style);
+    }
+    for support in &scene.supports {
+        marks::support(canvas, panel, support);
+    }
+    for joint in &scene.joints {
+        marks::joint(canvas, panel, joint);
+    }
+    for load in &scene.loads {
+        marks::load(canvas, panel, load);
+    }
+    let mut labels: Vec<[f64; 2]> = Vec::new();
+    for body in &scene.bodies {
+        marks::body(canvas, panel, body, &mut labels);
+    }
+}
+
+/// The Bézier curves that have the beam's direction at each sample: four points each.
+fn pieces(panel: &Panel, knots: &[Knot]) -> Vec<[[f64; 2]; 4]> {
+    let piece = |pair: &[Knot]| {
+        let third = (pair[1].s - pair[0].s) / 3.0;
+        let (leaving, arriving) =
+            (pair[0].point + pair[0].derivative * third, pair[1].point - pair[1].derivative * third);
+        [pair[0].point, leaving, arriving, pair[1].point].map(|point| panel.point(&point))
+    };
+    knots.windows(2).map(piece).collect()
+}
+
+/// What a line of the legend shows.
+enum Entry {
+    Initial,
+    Beam { name: String, colour: &'static str },
+    MoreBeams(usize),
+    Body,
+    Support,
+    Load,
+}
+
+fn legend_entries(scene: &Scene) -> Vec<Entry> {
+    let mut entries = vec![Entry::Initial];
+    for (i, beam) in scene.beams.iter().take(LEGEND_BEAMS).enumerate() {
+        entries.push(Entry::Beam { name: beam.name.clone(), colour: COLOURS[i % COLOURS.len()] });
+    }
+    if scene.beams.len() > LEGEND_BEAMS {
+        entries.push(Entry::MoreBeams(scene.beams.len() - LEGEND_BEAMS));
+    }
+    if !scene.bodies.is_empty() {
+        entries.push(Entry::Body);
+    }
+    if !scene.supports.is_empty() || scene.joints.iter().any(|joint| joint.is_grounded) {
+        entries.push(Entry::Support);
+    }
+    if !scene.loads.is_empty() {
+        entries.push(Entry::Load);
+    }
+    entries
+}
+
+fn draw_legend(canvas: &mut Canvas, origin: [f64; 2], entries: &[Entry]) {
+    for (i, entry) in entries.iter().enumerate() {
+        let [x, y] = [origin[0], origin[1] + 10.0 + layout::LEGEND_LINE * i as f64];
+        let (left, right, middle) = ([x, y], [x + 26.0, y], [x + 13.0, y]);
+        let label = match entry {
+            Entry::Initial => {
+                canvas.line(left, right, &Style::line(FAINT, 1.2).dashed("5 4"));
+                "initial shape".to_owned()
+            }
+            Entry::Beam { name, colour } => {
+                canvas.line(left, right, &Style::line(colour, 2.4));
+                shortened(name, 20)
+            }
+            Entry::MoreBeams(count) => format!("and {count} more"),
+            Entry::Body => {
+                marks::diamond(canvas, middle, true);
+                "rigid body".to_owned()
+            }
+            Entry::Support => {
+                marks::clamp(canvas, [x + 10.0, y], [1.0, 0.0], 7.0);
+                "support".to_owned()
+            }
+            Entry::Load => {
+                marks::arrow(canvas, left, right, LOAD);
+                "load".to_owned()
+            }
+        };
+        canvas.text([x + 34.0, y + 4.0], &label, "start", 11.5, INK);
+    }
+}
+
+fn shortened(name: &str, longest: usize) -> String {
+    if name.chars().count() <= longest {
+        name.to_owned()
+    } else {
+        name.chars().take(longest.saturating_sub(1)).chain(['…']).collect()
+    }
+}

@@ -1,0 +1,242 @@
+//! What there is to draw, in space.
+
+use flexura_model::{Attachment, Body, BodyRef, Frame, JointKind, LoadFrame, LoadTarget, Model};
+use flexura_solution::{BeamSample, BeamSolution, Solution};
+use flexura_spatial::{Pose, Vector3};
+
+/// A beam's axis before and after.
+pub struct BeamLine {
+    pub name: String,
+    pub initial: Vec<Knot>,
+    pub deformed: Vec<Knot>,
+}
+
+/// A point of a beam's axis with its derivative by the arc length, for a smooth curve through few samples.
+#[derive(Clone, Copy)]
+pub struct Knot {
+    pub s: f64,
+    pub point: Vector3<f64>,
+    pub derivative: Vector3<f64>,
+}
+
+impl Knot {
+    fn initial(sample: &BeamSample) -> Self {
+        let derivative = sample.rest_pose.rotation * Vector3::x();
+        Self { s: sample.s, point: sample.rest_pose.position, derivative }
+    }
+
+    fn deformed(sample: &BeamSample) -> Self {
+        let derivative = sample.pose.rotation * (Vector3::x() + sample.strain);
+        Self { s: sample.s, point: sample.pose.position, derivative }
+    }
+}
+
+/// A point before and after.
+#[derive(Clone, Copy)]
+pub struct Moved {
+    pub initial: Vector3<f64>,
+    pub deformed: Vector3<f64>,
+}
+
+/// A body's origin, and what is fixed to the body.
+pub struct BodyMark {
+    pub name: String,
+    pub initial: Vector3<f64>,
+    pub deformed: Vector3<f64>,
+    pub arms: Vec<Moved>,
+}
+
+/// A beam's end on the ground.
+pub struct Support {
+    pub point: Vector3<f64>,
+    /// From the beam into the ground, unit.
+    pub outward: Vector3<f64>,
+    pub kind: JointKind,
+}
+
+/// A joint.
+pub struct JointMark {
+    pub point: Vector3<f64>,
+    /// Unit, global.
+    pub axis: Vector3<f64>,
+    pub kind: JointKind,
+    pub is_grounded: bool,
+}
+
+/// A point load; directions are unit vectors or zero.
+pub struct LoadMark {
+    pub point: Vector3<f64>,
+    pub force: Vector3<f64>,
+    pub moment: Vector3<f64>,
+}
+
+/// All of it.
+pub struct Scene {
+    pub beams: Vec<BeamLine>,
+    pub bodies: Vec<BodyMark>,
+    pub supports: Vec<Support>,
+    pub joints: Vec<JointMark>,
+    pub springs: Vec<[Vector3<f64>; 2]>,
+    pub loads: Vec<LoadMark>,
+}
+
+impl Scene {
+    pub fn new(model: &Model, solution: &Solution) -> Self {
+        let beams = model.beams.iter().zip(&solution.beams).map(|(beam, result)| BeamLine {
+            name: beam.name.clone(),
+            initial: result.samples.iter().map(Knot::initial).collect(),
+            deformed: result.samples.iter().map(Knot::deformed).collect(),
+        });
+        let mut bodies: Vec<BodyMark> = model
+            .bodies
+            .iter()
+            .zip(&solution.bodies)
+            .map(|(body, pose)| BodyMark {
+                name: body.name.clone(),
+                initial: body.pose.position,
+                deformed: pose.position,
+                arms: Vec::new(),
+            })
+            .collect();
+        let supports = add_beam_ends(model, solution, &mut bodies);
+        let joints = add_joints(model, solution, &mut bodies);
+        for spring in &model.springs {
+            for end in [&spring.from, &spring.to] {
+                if let Attachment::Body { body, point } = end {
+                    add_arm(model, solution, &mut bodies, *body, &Pose::translation(*point));
+                }
+            }
+        }
+        Self {
+            beams: beams.collect(),
+            bodies,
+            supports,
+            joints,
+            springs: solution.springs.iter().map(|spring| spring.ends).collect(),
+            loads: loads(model, solution),
+        }
+    }
+
+    /// The smallest box around everything; the origin when there is nothing.
+    pub fn bounds(&self) -> [Vector3<f64>; 2] {
+        let beams = self
+            .beams
+            .iter()
+            .flat_map(|beam| beam.initial.iter().chain(&beam.deformed))
+            .map(|knot| knot.point);
+        let bodies = self.bodies.iter().flat_map(|body| {
+            let arms = body.arms.iter().flat_map(|arm| [arm.initial, arm.deformed]);
+            [body.initial, body.deformed].into_iter().chain(arms)
+        });
+        let marks = self.springs.iter().flatten().copied().chain(self.joints.iter().map(|joint| joint.point));
+        let mut points = beams.chain(bodies).chain(marks).filter(|point| point.iter().all(|c| c.is_finite()));
+        let first = points.next().unwrap_or_else(Vector3::zeros);
+        points.fold([first; 2], |[low, high], point| [low.inf(&point), high.sup(&point)])
+    }
+}
+
+/// Arms from bodies to the beam ends that they hold; supports where the ground holds one.
+fn add_beam_ends(model: &Model, solution: &Solution, bodies: &mut [BodyMark]) -> Vec<Support> {
+    let mut supports = Vec::new();
+    for (beam, result) in model.beams.iter().zip(&solution.beams) {
+        let ends = [(&beam.start, result.samples.first(), -1.0), (&beam.end, result.samples.last(), 1.0)];
+        for (end, sample, sign) in ends {
+            let (Some(end), Some(sample)) = (end, sample) else { continue };
+            match end.body {
+                BodyRef::Ground => supports.push(Support {
+                    point: sample.pose.position,
+                    outward: sample.pose.rotation * Vector3::x() * sign,
+                    kind: end.hold.kind,
+                }),
+                BodyRef::Body(id) => {
+                    if let Some(mark) = bodies.get_mut(id.0) {
+                        mark.arms.push(Moved {
+                            initial: sample.rest_pose.position,
+                            deformed: sample.pose.position,
+                        });
+                    }
+                }
+            }
+        }
+    }
+    supports
+}
+
+fn add_joints(model: &Model, solution: &Solution, bodies: &mut [BodyMark]) -> Vec<JointMark> {
+    let mut marks = Vec::new();
+    for joint in &model.joints {
+        let fixed = final_pose(solution, joint.parent.body) * joint.parent.pose;
+        add_arm(model, solution, bodies, joint.parent.body, &joint.parent.pose);
+        let child_pose = joint.child_pose.unwrap_or_else(|| {
+            let parent = initial_pose(model, joint.parent.body) * joint.parent.pose;
+            initial_pose(model, joint.child).inverse() * parent
+        });
+        let moving = final_pose(solution, joint.child) * child_pose;
+        add_arm(model, solution, bodies, joint.child, &child_pose);
+        marks.push(JointMark {
+            point: moving.position,
+            axis: fixed.rotation * joint.law.axis,
+            kind: joint.law.kind,
+            is_grounded: joint.parent.body == BodyRef::Ground || joint.child == BodyRef::Ground,
+        });
+    }
+    marks
+}
+
+fn add_arm(model: &Model, solution: &Solution, bodies: &mut [BodyMark], body: BodyRef, pose: &Pose) {
+    if let BodyRef::Body(id) = body
+        && let Some(mark) = bodies.get_mut(id.0)
+    {
+        mark.arms.push(Moved {
+            initial: initial_pose(model, body).point(&pose.position),
+            deformed: final_pose(solution, body).point(&pose.position),
+        });
+    }
+}
+
+fn initial_pose(model: &Model, body: BodyRef) -> Pose {
+    match body {
+        BodyRef::Ground => Pose::identity(),
+        BodyRef::Body(id) => model.bodies.get(id.0).map_or_else(Pose::identity, |body: &Body| body.pose),
+    }
+}
+
+fn final_pose(solution: &Solution, body: BodyRef) -> Pose {
+    match body {
+        BodyRef::Ground => Pose::identity(),
+        BodyRef::Body(id) => solution.bodies.get(id.0).copied().unwrap_or_else(Pose::identity),
+    }
+}
+
+fn loads(model: &Model, solution: &Solution) -> Vec<LoadMark> {
+    let unit = |vector: Vector3<f64>| vector.try_normalize(1e-300).unwrap_or_else(Vector3::zeros);
+    let mut marks = Vec::new();
+    for load in &model.loads {
+        let pose = match load.target {
+            LoadTarget::Body { body, point } => {
+                let frame = Frame { body: BodyRef::Body(body), pose: Pose::translation(point) };
+                Some(final_pose(solution, frame.body) * frame.pose)
+            }
+            LoadTarget::Beam(place) => solution
+                .beams
+                .get(place.beam.0)
+                .and_then(|beam| nearest(beam, place.at.arc_length(beam.length)))
+                .map(|sample| sample.pose),
+        };
+        let Some(pose) = pose else { continue };
+        let turned = |vector: Vector3<f64>| match load.frame {
+            LoadFrame::Global => vector,
+            LoadFrame::Local => pose.rotation * vector,
+        };
+        marks.push(LoadMark {
+            point: pose.position,
+            force: turned(unit(load.force)),
+            moment: turned(unit(load.moment)),
+        });
+    }
+    marks
+}
+
+fn nearest(beam: &BeamSolution, s: f64) -> Option<&BeamSample> {
+    beam.samples.iter().min_by(|a, b| (a.s - s).abs().total_cmp(&(b.s - s).abs()))
+}

@@ -1,0 +1,195 @@
+//! What a person reads after a solve, as plain data; how it is set on the screen is the command's matter.
+
+use crate::{BeamPeaks, Evaluation, OutputResult};
+use flexura_model::{JointKind, Model};
+use flexura_solution::{Solution, Status};
+use flexura_spatial::{Vector3, log};
+
+/// The summary of one solve.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    /// Name of the model; may be empty.
+    pub model: String,
+    /// How the study ended.
+    pub status: Status,
+    /// Why, when it did not converge.
+    pub reason: Option<String>,
+    /// Fraction of the full load that was reached.
+    pub load_fraction: f64,
+    /// Largest scaled residual.
+    pub residual: f64,
+    /// Estimated largest relative error.
+    pub error_estimate: f64,
+    /// Newton steps.
+    pub newton_steps: usize,
+    /// Load steps.
+    pub load_steps: usize,
+    /// Outputs in the model's order.
+    pub outputs: Vec<OutputSummary>,
+    /// Beams in the model's order.
+    pub beams: Vec<BeamSummary>,
+    /// Bodies in the model's order.
+    pub bodies: Vec<BodySummary>,
+    /// Joints in the model's order.
+    pub joints: Vec<JointSummary>,
+    /// Springs: name, length (m), tension (N).
+    pub springs: Vec<(String, f64, f64)>,
+    /// Strain energy, J.
+    pub energy: f64,
+    /// Things to know though the solve went well.
+    pub warnings: Vec<String>,
+    /// How large lengths, forces and moments are here, so that rounding noise can be told from values.
+    pub scales: Scales,
+}
+
+/// The largest length (m), force (N) and moment (N·m) of a result.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Scales {
+    /// Longest beam or remotest body.
+    pub length: f64,
+    /// Largest internal or joint force.
+    pub force: f64,
+    /// Largest internal or joint moment.
+    pub moment: f64,
+}
+
+/// An output as a person reads it.
+pub type OutputSummary = OutputResult;
+
+/// A beam's largest values.
+#[derive(Clone, Debug)]
+pub struct BeamSummary {
+    /// Its name.
+    pub name: String,
+    /// Its undeformed length, m.
+    pub length: f64,
+    /// Largest strain and stresses. None where the section is given as a stiffness.
+    pub peaks: Option<BeamPeaks>,
+    /// Has its material a yield strength?
+    pub has_yield_strength: bool,
+}
+
+/// Where a body came to rest.
+#[derive(Clone, Debug)]
+pub struct BodySummary {
+    /// Its name.
+    pub name: String,
+    /// Global position, m.
+    pub position: Vector3<f64>,
+    /// Rotation vector from the global axes, rad.
+    pub rotation: Vector3<f64>,
+    /// How far it moved, m.
+    pub displacement: f64,
+}
+
+/// A joint's state.
+#[derive(Clone, Debug)]
+pub struct JointSummary {
+    /// Its name.
+    pub name: String,
+    /// Its coordinates in the kind's order.
+    pub coordinates: Vec<CoordinateSummary>,
+    /// Force of the parent on the child, global, N.
+    pub force: Vector3<f64>,
+    /// Moment of the parent on the child, global, N·m.
+    pub moment: Vector3<f64>,
+}
+
+/// A joint's coordinate.
+#[derive(Clone, Copy, Debug)]
+pub struct CoordinateSummary {
+    /// m or rad.
+    pub value: f64,
+    /// "m" or "rad".
+    pub unit: &'static str,
+    /// N or N·m.
+    pub effort: f64,
+    /// "N" or "N*m".
+    pub effort_unit: &'static str,
+}
+
+/// Gathers the summary of a solve.
+pub fn summarise(model: &Model, solution: &Solution, evaluation: &Evaluation) -> Summary {
+    let beams = model.beams.iter().zip(&solution.beams).zip(&evaluation.beams);
+    let joints = model.joints.iter().zip(&solution.joints);
+    Summary {
+        model: model.name.clone(),
+        status: solution.status,
+        reason: solution.reason.clone(),
+        load_fraction: solution.load_fraction,
+        residual: solution.residual,
+        error_estimate: solution.error_estimate,
+        newton_steps: solution.work.newton_steps,
+        load_steps: solution.work.load_steps,
+        outputs: evaluation.outputs.clone(),
+        beams: beams
+            .map(|((beam, result), stress)| BeamSummary {
+                name: beam.name.clone(),
+                length: result.length,
+                peaks: stress.as_ref().map(|stress| stress.peaks),
+                has_yield_strength: beam.material.is_some_and(|id| model[id].yield_strength.is_some()),
+            })
+            .collect(),
+        bodies: model
+            .bodies
+            .iter()
+            .zip(&solution.bodies)
+            .map(|(body, pose)| BodySummary {
+                name: body.name.clone(),
+                position: pose.position,
+                rotation: log(&pose.rotation),
+                displacement: (pose.position - body.pose.position).norm(),
+            })
+            .collect(),
+        joints: joints
+            .map(|(joint, result)| {
+                let units = coordinate_units(joint.law.kind);
+                let values = result.coordinates.iter().zip(&result.efforts).zip(units);
+                let coordinate = |((value, effort), units): ((&f64, &f64), &(&'static str, &'static str))| {
+                    CoordinateSummary { value: *value, unit: units.0, effort: *effort, effort_unit: units.1 }
+                };
+                JointSummary {
+                    name: joint.name.clone(),
+                    coordinates: values.map(coordinate).collect(),
+                    force: result.wrench.force,
+                    moment: result.wrench.moment,
+                }
+            })
+            .collect(),
+        springs: model
+            .springs
+            .iter()
+            .zip(&solution.springs)
+            .map(|(spring, result)| (spring.name.clone(), result.length, result.tension))
+            .collect(),
+        energy: solution.energy,
+        warnings: solution.warnings.clone(),
+        scales: scales(solution),
+    }
+}
+
+fn scales(solution: &Solution) -> Scales {
+    let samples = solution.beams.iter().flat_map(|beam| &beam.samples).map(|sample| sample.wrench);
+    let wrenches = samples.chain(solution.joints.iter().map(|joint| joint.wrench));
+    let mut scales = Scales::default();
+    for wrench in wrenches {
+        scales.force = scales.force.max(wrench.force.norm());
+        scales.moment = scales.moment.max(wrench.moment.norm());
+    }
+    let lengths = solution.beams.iter().map(|beam| beam.length);
+    scales.length =
+        lengths.chain(solution.bodies.iter().map(|pose| pose.position.norm())).fold(0.0, f64::max);
+    scales
+}
+
+/// Units of a joint's coordinates and of their efforts, in the kind's order.
+fn coordinate_units(kind: JointKind) -> &'static [(&'static str, &'static str)] {
+    const ANGLE: (&str, &str) = ("rad", "N*m");
+    const LENGTH: (&str, &str) = ("m", "N");
+    match kind {
+        JointKind::Weld => &[],
+        JointKind::Revolute => &[ANGLE],
+        JointKind::Prismatic => &[LENGTH],
+        JointKind::Spherical => &[ANGLE, ANGLE, ANGLE],
+    }
+}
