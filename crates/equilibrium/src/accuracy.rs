@@ -6,12 +6,12 @@
 //! [`GAIN`], far less than that limit, so that it also holds where the limit is not yet reached, plus what
 //! round-off may have done.
 
-use crate::shooting::{SegmentEnd, pose_of};
+use crate::shooting::pose_of;
 use crate::system::Equilibrium;
 use flexura_mechanics::ode::{STAGES, WEIGHTS};
 use flexura_mechanics::rod::Piece;
 use flexura_nonlinear::{Breakdown, NewtonEnd, NewtonOptions, System, converge};
-use flexura_spatial::{Vector3, log};
+use flexura_spatial::{Pose, Vector3, log};
 
 /// By how much halving the steps is trusted to reduce the error, at least.
 const GAIN: f64 = 32.0;
@@ -49,35 +49,43 @@ pub(crate) fn dead_force(piece: &Piece) -> Vector3<f64> {
 }
 
 impl Equilibrium {
-    /// From a state near the solution at the present load to the solution, to `tolerance`.
-    pub fn finish(&mut self, tolerance: f64) -> Finish {
-        // The first mesh may err by what halving its steps will mend.
+    /// From a state near the solution at the present load to the solution, to `tolerance`. Newton does not start
+    /// where its first correction would be larger than `nearest`.
+    pub fn finish(&mut self, tolerance: f64, nearest: f64) -> Finish {
+        // The first mesh may err by what halving its steps will mend, and Newton by as much: the correction on
+        // the halved mesh takes both away.
         self.restep(tolerance * GAIN, false);
         let mut step = vec![0.0; self.unknowns()];
         let mut best = f64::INFINITY;
-        let mut before: Vec<Vec<SegmentEnd>> = Vec::new();
         for _ in 0..REFINEMENTS {
-            let newton = NewtonOptions { tolerance: (0.1 * tolerance).max(self.floor()), iterations: 60 };
-            match converge(self, &newton) {
-                NewtonEnd::Converged { .. } => {}
-                // On a fine mesh with huge loads the last digits may wander; what is left is round-off.
+            let tolerance_here = (0.3 * GAIN * tolerance).max(self.floor());
+            let newton = NewtonOptions { tolerance: tolerance_here, iterations: 60, nearest };
+            let mut rate = match converge(self, &newton) {
+                NewtonEnd::Converged { contraction, .. } => contraction,
                 end => return Finish::Failed(end),
-            }
-            if let Err(breakdown) = self.residual() {
-                return Finish::Failed(NewtonEnd::Broken(breakdown));
-            }
-            before.clone_from(&self.ends);
+            };
+            let expected = self.expected_ends();
             self.multiply_steps(2.0);
-            if let Err(breakdown) = self.residual() {
-                return Finish::Failed(NewtonEnd::Broken(breakdown));
+            let mut moved = match self.correct(&mut step) {
+                Ok(size) => size.max(self.end_change(&expected)),
+                Err(breakdown) => return Finish::Failed(NewtonEnd::Broken(breakdown)),
+            };
+            let floor = self.floor() + 1e-16 * self.total_steps() as f64;
+            // What Newton still leaves is polished away on the same mesh.
+            let mut left = rate * moved;
+            while left > 0.1 * tolerance.max(floor) {
+                let size = match self.correct(&mut step) {
+                    Ok(size) => size,
+                    Err(breakdown) => return Finish::Failed(NewtonEnd::Broken(breakdown)),
+                };
+                if size > 0.5 * left.max(10.0 * floor) && size > rate.max(0.5) * moved {
+                    break;
+                }
+                rate = (size / moved).min(1.0);
+                moved = moved.max(size);
+                left = rate * size;
             }
-            self.newton_step(&mut step);
-            let moved = self.size(&step).max(self.end_change(&before));
-            if !moved.is_finite() {
-                return Finish::Failed(NewtonEnd::Broken(Breakdown::NotFinite));
-            }
-            self.retract(&step);
-            let error = moved / GAIN + self.floor() + 1e-16 * self.total_steps() as f64;
+            let error = moved / GAIN + left + floor;
             if error <= tolerance {
                 return Finish::Done { error };
             }
@@ -85,22 +93,59 @@ impl Equilibrium {
                 return Finish::AccuracyLimit { error: error.max(moved) };
             }
             best = moved;
-            self.multiply_steps((1.3 * (error / tolerance).powf(0.125) * 0.5).max(0.0).clamp(1.0, 8.0));
+            self.multiply_steps((0.65 * (error / tolerance).powf(0.125)).clamp(1.0, 8.0));
         }
         Finish::AccuracyLimit { error: best }
     }
 
-    /// The largest scaled change of the segment ends against what they were.
-    fn end_change(&self, before: &[Vec<SegmentEnd>]) -> f64 {
+    /// One simplified Newton correction on the present mesh; its size.
+    fn correct(&mut self, step: &mut [f64]) -> Result<f64, Breakdown> {
+        self.residual()?;
+        self.newton_step(step);
+        let size = self.size(step);
+        if !size.is_finite() {
+            return Err(Breakdown::NotFinite);
+        }
+        self.retract(step);
+        Ok(size)
+    }
+
+    /// Where the segments would end after the last correction, by the tangent at hand.
+    fn expected_ends(&self) -> Vec<Vec<(Vector3<f64>, Vector3<f64>, Pose)>> {
+        let step = &self.last_step;
+        let mut all = Vec::with_capacity(self.ends.len());
+        for (span, ends) in self.ends.iter().enumerate() {
+            let mut expected = Vec::with_capacity(ends.len());
+            for (k, end) in ends.iter().enumerate() {
+                let (mut turn, mut shift) = (Vector3::zeros(), Vector3::zeros());
+                let mut add = |column: usize, unknown: usize| {
+                    turn += crate::assembly::rows(&end.columns[column], 0) * step[unknown];
+                    shift += crate::assembly::rows(&end.columns[column], 3) * step[unknown];
+                };
+                if k == 0 {
+                    self.head_unknowns(span, add);
+                } else {
+                    let first = self.layout.spans[span].inner[k - 1].unknown;
+                    (0..12).for_each(|i| add(i, first + i));
+                }
+                expected.push((turn, shift, pose_of(&end.state)));
+            }
+            all.push(expected);
+        }
+        all
+    }
+
+    /// The largest scaled difference of the segment ends from where they were expected.
+    fn end_change(&self, expected: &[Vec<(Vector3<f64>, Vector3<f64>, Pose)>]) -> f64 {
         let mut largest = 0.0_f64;
-        for ((span, old), new) in self.lowered.spans.iter().zip(before).zip(&self.ends) {
+        for ((span, old), new) in self.lowered.spans.iter().zip(expected).zip(&self.ends) {
             let law = &self.lowered.beams[span.beam];
             let shorter = law.scale.length / law.length;
-            for (a, b) in old.iter().zip(new) {
-                let (a, b) = (pose_of(&a.state), pose_of(&b.state));
-                largest = largest
-                    .max(log(&(a.rotation * b.rotation.inverse())).norm())
-                    .max((a.position - b.position).norm() * shorter);
+            for ((turn, shift, before), end) in old.iter().zip(new) {
+                let now = pose_of(&end.state);
+                let turned = log(&(now.rotation * before.rotation.inverse())) - turn;
+                let moved = now.position - before.position - shift;
+                largest = largest.max(turned.norm()).max(moved.norm() * shorter);
             }
         }
         largest
@@ -118,8 +163,11 @@ impl Equilibrium {
         own.map(|(_, r)| r.abs()).chain(gaps.map(|g| g.abs())).fold(0.0, f64::max)
     }
 
-    /// Position of the far end of the last span at the last evaluation, m.
-    pub fn tip(&self) -> Vector3<f64> {
+    /// Position of the far end of the last span, m.
+    pub fn tip(&mut self) -> Vector3<f64> {
+        if self.residual().is_err() {
+            return Vector3::repeat(f64::NAN);
+        }
         let last = self.ends.last().and_then(|ends| ends.last());
         last.map_or(Vector3::zeros(), |end| pose_of(&end.state).position * self.lowered.scale.length)
     }

@@ -34,9 +34,9 @@ pub(crate) struct Level {
 /// Exponent by which a segment may let its start grow.
 const GROWTH: f64 = 8.0;
 /// Error of one radian of turning in unit steps: with it, `error = CONSTANT * turning * step^8`.
-const CONSTANT: f64 = 2e-8;
+const CONSTANT: f64 = 3e-9;
 /// A step never turns a section further than this, however loose the accuracy.
-const LARGEST_TURN: f64 = 1.5;
+const LARGEST_TURN: f64 = 2.2;
 
 impl Level {
     /// Turning per nondimensional length at this level: bending by the moment, and the rate √(F/EI) of the

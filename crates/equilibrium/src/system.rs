@@ -35,6 +35,8 @@ pub struct Equilibrium {
     pub(crate) levels: Vec<Level>,
     weights: Vec<f64>,
     scratch: Vec<f64>,
+    /// The step by which the state was last moved.
+    pub(crate) last_step: Vec<f64>,
     forced_segments: Option<usize>,
     pub(crate) counts: Counts,
 }
@@ -78,6 +80,7 @@ impl Equilibrium {
             levels: Vec::new(),
             weights: Vec::new(),
             scratch: Vec::new(),
+            last_step: Vec::new(),
             forced_segments: None,
             counts: Counts::default(),
             lowered,
@@ -523,6 +526,8 @@ impl System for Equilibrium {
     }
 
     fn retract(&mut self, step: &[f64]) {
+        self.last_step.clear();
+        self.last_step.extend_from_slice(step);
         let mut x = std::mem::take(&mut self.x);
         for slot in self.pose_slots() {
             let pose = read_pose(&x, slot.state);

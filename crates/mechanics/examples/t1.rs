@@ -7,4 +7,4 @@ fn go<const W: usize>(n:usize){
         advance(&p,1.0,&mut s); acc+=s.position[0]+s.d[0][W-1]; }
     println!("{acc}");
 }
-fn main(){ match std::env::args().nth(1).unwrap().as_str() {"1"=>go::<1>(1000),"4"=>go::<4>(1000),"8"=>go::<8>(1000),"16"=>go::<16>(1000),_=>{}} }
+fn main(){ match std::env::args().nth(1).unwrap().as_str() {"1"=>go::<1>(100000),"4"=>go::<4>(100000),"8"=>go::<8>(100000),"16"=>go::<16>(100000),_=>{}} }

@@ -119,6 +119,7 @@ pub fn follow(
         let at_rest = last == 0.0;
         // The polynomial through the points, or the tangent at rest, is exact to this power of the step.
         let order = if at_rest { 1 } else { points.len() - 1 };
+        // After a renewal there is one point only, and nothing to predict from but itself.
         // A prediction must not turn anything so far that the turning becomes ambiguous.
         for _ in 0..60 {
             if at_rest {
@@ -149,6 +150,7 @@ pub fn follow(
                 work.taken += 1;
                 if system.renew() {
                     points.clear();
+                    step = vec![0.0; system.unknowns()];
                 } else if points.len() == 4 {
                     points.remove(0);
                 }

@@ -14,6 +14,8 @@ pub struct NewtonOptions {
     pub tolerance: f64,
     /// Most corrections.
     pub iterations: usize,
+    /// Size of the first correction beyond which the start counts as far from any solution.
+    pub nearest: f64,
 }
 
 /// How it ended.
@@ -23,9 +25,11 @@ pub enum NewtonEnd {
     Converged {
         /// Size of that correction.
         correction: f64,
-        /// Largest contraction of a full step after which the tangent was renewed.
+        /// How much the last correction was smaller than the one before: what the next would be smaller by.
         contraction: f64,
     },
+    /// The first correction was larger than allowed; the state is untouched.
+    Far,
     /// No step along the Newton direction leads to a better point.
     NoDescent,
     /// Too many corrections.
@@ -44,12 +48,15 @@ pub fn converge(system: &mut impl System, options: &NewtonOptions) -> NewtonEnd 
     let n = system.unknowns();
     let (mut step, mut next) = (vec![0.0; n], vec![0.0; n]);
     let mut kept = Vec::new();
-    let mut worst = 0.0_f64;
+    let mut rate = 0.0_f64;
     if let Err(breakdown) = system.linearise() {
         return NewtonEnd::Broken(breakdown);
     }
     system.newton_step(&mut step);
     let mut size = system.size(&step);
+    if size > options.nearest {
+        return NewtonEnd::Far;
+    }
     let mut fresh = true;
     let mut factor = 1.0;
     for _ in 0..options.iterations {
@@ -58,7 +65,7 @@ pub fn converge(system: &mut impl System, options: &NewtonOptions) -> NewtonEnd 
         }
         if size <= options.tolerance {
             system.retract(&step);
-            return NewtonEnd::Converged { correction: size, contraction: worst };
+            return NewtonEnd::Converged { correction: size, contraction: rate };
         }
         system.store(&mut kept);
         loop {
@@ -75,9 +82,7 @@ pub fn converge(system: &mut impl System, options: &NewtonOptions) -> NewtonEnd 
             };
             if after <= (1.0 - 0.25 * factor) * size {
                 let contraction = after / size;
-                if fresh && factor == 1.0 {
-                    worst = worst.max(contraction);
-                }
+                rate = contraction;
                 if factor == 1.0 && (contraction < FAST || after <= options.tolerance) {
                     std::mem::swap(&mut step, &mut next);
                     size = after;

@@ -92,7 +92,7 @@ impl Prepared {
         let mut report = |load: f64, steps: usize| progress(Progress { load_fraction: load, load_steps: steps });
         let (end, path) = follow(&mut self.problem, &self.path, &mut report);
         match end {
-            PathEnd::Complete => self.finish(tolerance, path),
+            PathEnd::Complete => self.finish(tolerance, path, f64::INFINITY),
             PathEnd::Stalled { load } => Outcome {
                 status: Status::Stalled,
                 reason: Some(format!(
@@ -126,23 +126,15 @@ impl Prepared {
     /// From where it stands, which should be near, to `tolerance`; from rest if it is not near.
     pub fn solve_from_here(&mut self, tolerance: f64, progress: &mut dyn FnMut(Progress)) -> Outcome {
         self.problem.set_load(1.0);
-        let n = self.problem.unknowns();
-        let mut step = vec![0.0; n];
-        let near = self.problem.residual().is_ok() && {
-            self.problem.newton_step(&mut step);
-            self.problem.size(&step) < NEAR
-        };
-        if near {
-            let outcome = self.finish(tolerance, PathWork { taken: 1, refused: 0 });
-            if outcome.status == Status::Converged {
-                return outcome;
-            }
+        let outcome = self.finish(tolerance, PathWork { taken: 1, refused: 0 }, NEAR);
+        if outcome.status == Status::Converged {
+            return outcome;
         }
         self.solve(tolerance, progress)
     }
 
-    fn finish(&mut self, tolerance: f64, path: PathWork) -> Outcome {
-        let (status, reason, error_estimate) = match self.problem.finish(tolerance) {
+    fn finish(&mut self, tolerance: f64, path: PathWork, nearest: f64) -> Outcome {
+        let (status, reason, error_estimate) = match self.problem.finish(tolerance, nearest) {
             Finish::Done { error } => (Status::Converged, None, error),
             Finish::AccuracyLimit { error } => (
                 Status::AccuracyLimit,
