@@ -55,6 +55,7 @@ impl Equilibrium {
         // The first mesh may err by what halving its steps will mend, and Newton by as much: the correction on
         // the halved mesh takes both away.
         self.restep(tolerance * GAIN, false);
+        self.set_weights(true);
         let mut step = vec![0.0; self.unknowns()];
         let mut best = f64::INFINITY;
         for _ in 0..REFINEMENTS {

@@ -38,6 +38,7 @@ pub struct Equilibrium {
     /// The step by which the state was last moved.
     pub(crate) last_step: Vec<f64>,
     forced_segments: Option<usize>,
+    finest_path: f64,
     pub(crate) counts: Counts,
 }
 
@@ -82,6 +83,7 @@ impl Equilibrium {
             scratch: Vec::new(),
             last_step: Vec::new(),
             forced_segments: None,
+            finest_path: f64::INFINITY,
             counts: Counts::default(),
             lowered,
         };
@@ -108,6 +110,11 @@ impl Equilibrium {
     pub fn force_segments(&mut self, count: Option<usize>) {
         self.forced_segments = count;
         self.rest();
+    }
+
+    /// Accuracy of the mesh while the load is raised, if better than what the solver would choose.
+    pub fn refine_path(&mut self, accuracy: f64) {
+        self.finest_path = accuracy;
     }
 
     /// Changes a point load. The state stays, so that a solve can start from it.
@@ -147,13 +154,14 @@ impl Equilibrium {
     pub fn rest(&mut self) {
         self.load = 0.0;
         self.counts = Counts::default();
-        self.accuracy = self.path_accuracy();
+        self.accuracy = self.path_accuracy().min(self.finest_path);
         let first_time = self.meshes.is_empty();
         self.levels = self.lowered.spans.iter().map(|span| self.expected_level(span)).collect();
         let counts: Vec<usize> = (0..self.lowered.spans.len()).map(|_| self.forced_segments.unwrap_or(1)).collect();
         let fits = !first_time && counts.iter().zip(&self.meshes).all(|(c, m)| *c == m.segments.len());
         if fits {
             self.restep(self.accuracy, false);
+            self.set_weights(false);
         } else {
             self.remesh(&counts);
         }
@@ -218,7 +226,7 @@ impl Equilibrium {
         self.chains = vec![Chain::default(); self.meshes.len()];
         self.gaps = self.meshes.iter().map(|m| vec![[0.0; BLOCK]; m.segments.len() - 1]).collect();
         self.r = vec![0.0; self.layout.interface];
-        self.set_weights();
+        self.set_weights(false);
         self.sum_known_forces();
     }
 
@@ -271,11 +279,19 @@ impl Equilibrium {
             .collect();
     }
 
-    fn set_weights(&mut self) {
-        self.weights = vec![1.0; self.layout.unknowns];
-        for (span, slots) in self.lowered.spans.iter().zip(&self.layout.spans) {
+    /// What counts as a change of 1: L for positions, 1 for turnings, EI/L² and EI/L for wrenches. For the
+    /// final accuracy (`relative`) a beam's wrenches count against the largest that it carries, if that is more:
+    /// beyond EI/L² their digits are limited by round-off, not by the method.
+    pub(crate) fn set_weights(&mut self, relative: bool) {
+        self.weights.clear();
+        self.weights.resize(self.layout.unknowns, 1.0);
+        for ((span, slots), level) in self.lowered.spans.iter().zip(&self.layout.spans).zip(&self.levels) {
             let law = &self.lowered.beams[span.beam];
-            let [force, moment] = law.wrench_unit;
+            let [mut force, mut moment] = law.wrench_unit;
+            if relative {
+                force = force.max(level.force);
+                moment = moment.max(level.moment).max(level.force * law.length / law.scale.length);
+            }
             let shorter = law.scale.length / law.length;
             let w = &slots.wrench;
             for i in 0..w.count {
@@ -290,16 +306,18 @@ impl Equilibrium {
                 }
             }
         }
+        let largest = self.levels.iter().map(|l| l.force).fold(1.0, f64::max);
+        if relative {
+            for slots in &self.layout.joints {
+                let at = slots.wrench.unknown;
+                self.weights[at..at + 6].fill(1.0 / largest);
+            }
+        }
     }
 
     /// Size of a correction that round-off alone may cause.
     pub(crate) fn floor(&self) -> f64 {
-        let mut largest = 1.0_f64;
-        for (span, level) in self.lowered.spans.iter().zip(&self.levels) {
-            let [force, moment] = self.lowered.beams[span.beam].wrench_unit;
-            largest = largest.max(level.force / force).max(level.moment / moment);
-        }
-        2e-14 * largest
+        4e-14
     }
 
     pub(crate) fn node_pose(&self, node: Option<usize>) -> Pose {

@@ -7,7 +7,7 @@
 //! Newton never jumps to another branch; a weak load passes both tests in one step. Prediction is by the
 //! polynomial through the last points, up to order three, and the step length follows from how well it did.
 
-use crate::{Breakdown, System};
+use crate::System;
 
 /// How carefully the path is followed.
 #[derive(Clone, Copy, Debug)]

@@ -55,6 +55,20 @@ pub struct Outcome {
 /// Size of the first Newton correction up to which a known state counts as near.
 const NEAR: f64 = 0.5;
 
+/// Mesh accuracy of a second look at a path that seemed to end.
+const CAREFUL_MESH: f64 = 1e-9;
+/// How the second look is taken.
+const CAREFUL_PATH: PathOptions = PathOptions {
+    first_response: 0.4,
+    largest_correction: 0.3,
+    largest_contraction: 0.3,
+    point_tolerance: 1e-4,
+    largest_turning: 0.7,
+    shortest_step: 1e-9,
+    crossing_step: 1e-6,
+    steps: 20_000,
+};
+
 impl Prepared {
     /// Prepares a model and checks that it is held.
     ///
@@ -90,7 +104,15 @@ impl Prepared {
     pub fn solve(&mut self, tolerance: f64, progress: &mut dyn FnMut(Progress)) -> Outcome {
         self.problem.rest();
         let mut report = |load: f64, steps: usize| progress(Progress { load_fraction: load, load_steps: steps });
-        let (end, path) = follow(&mut self.problem, &self.path, &mut report);
+        let (mut end, mut path) = follow(&mut self.problem, &self.path, &mut report);
+        if let PathEnd::Stalled { .. } = end {
+            // A coarse mesh can end a path that the beam itself does not: look again with a fine one.
+            self.problem.refine_path(CAREFUL_MESH);
+            self.problem.rest();
+            let again = follow(&mut self.problem, &CAREFUL_PATH, &mut report);
+            self.problem.refine_path(f64::INFINITY);
+            (end, path) = (again.0, PathWork { refused: path.refused + again.1.refused, ..again.1 });
+        }
         match end {
             PathEnd::Complete => self.finish(tolerance, path, f64::INFINITY),
             PathEnd::Stalled { load } => Outcome {
