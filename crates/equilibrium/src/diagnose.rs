@@ -20,6 +20,9 @@ pub struct Census {
 /// Singular values below this part of the largest count as zero.
 const RANK: f64 = 1e-11;
 
+/// Width over thickness from which a strip counts as wide.
+const WIDE: f64 = 10.0;
+
 impl Equilibrium {
     pub(crate) fn node_name(&self, node: usize) -> String {
         match self.lowered.nodes[node].origin {
@@ -69,7 +72,27 @@ impl Equilibrium {
             add(format!("{name}: coordinates"), format!("{name}: effort on its coordinates"), slots.coordinates.count);
             add(format!("{name}: force and moment"), format!("{name}: its two frames fit"), 6);
         }
+        census.warnings.extend(self.wide_strips());
         census
+    }
+
+    /// Strips so wide that they cannot contract sideways when bent.
+    fn wide_strips(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for beam in &self.model.beams {
+            let section = &self.model[beam.section];
+            let flexura_model::Shape::Rectangle { width, height } = &section.shape else { continue };
+            let (Some(a), Some(b)) = (width.as_constant(), height.as_constant()) else { continue };
+            let ratio = if a > b { a / b } else { b / a };
+            if ratio > WIDE && !section.plane_strain {
+                warnings.push(format!(
+                    "section.{}: the strip of beam.{} is {ratio:.0} times as wide as it is thick; bent about its wide \
+                     side it stiffens towards E/(1-ν²), which plane_strain = true takes into account",
+                    section.name, beam.name
+                ));
+            }
+        }
+        warnings
     }
 
     /// Checks at rest that nothing is loose and nothing is held twice.

@@ -78,6 +78,25 @@
 //! # Ok::<(), String>(())
 //! ```
 //!
+//! # Many solves
+//!
+//! [`Prepared`] keeps everything that does not change between solves; a load is changed in place, and a solve can start
+//! from the last solution:
+//!
+//! ```
+//! use flexura::{Prepared, model::LoadId, spatial::Vector3};
+//! # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
+//! let model = flexura::modelfile::Document::read("models/elastica.toml")?.model(&[])?;
+//! let mut prepared = Prepared::new(&model)?;
+//! for i in 1..=10 {
+//!     prepared.set_point_load(LoadId(0), Vector3::new(0.0, f64::from(i), 0.0), Vector3::zeros());
+//!     let outcome = prepared.solve_from_here(1e-8, &mut |_| {});
+//!     assert_eq!(outcome.status, flexura::solution::Status::Converged);
+//! }
+//! assert!((prepared.problem().tip().y - 0.81061).abs() < 1e-5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # Results
 //!
 //! Not converging is no error: [`solution::Status`] says how a study ended, and the solution holds how far
@@ -94,5 +113,5 @@ pub use flexura_output as output;
 pub use flexura_post as post;
 pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;
-pub use flexura_study::{Census, Options, ProblemError, Progress, check, solve};
+pub use flexura_study::{Census, Equilibrium, Options, Outcome, Prepared, ProblemError, Progress, check, solve};
 pub use solve_file::{Error, Solved, solve_file};

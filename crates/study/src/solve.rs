@@ -95,6 +95,14 @@ impl Prepared {
         self.problem.set_point_load(id, force, moment);
     }
 
+    /// Assembles and factorises the tangent at the present state.
+    ///
+    /// # Errors
+    /// The tangent has no inverse, or is not finite.
+    pub fn linearise(&mut self) -> Result<(), Breakdown> {
+        self.problem.linearise()
+    }
+
     /// Puts the mechanism at rest.
     pub fn rest(&mut self) {
         self.problem.rest();

@@ -90,7 +90,7 @@ impl<const W: usize> RodState<W> {
 
 /// Takes `state` from the start of `piece` to its end under `load` times its distributed loads.
 pub fn advance<const W: usize>(piece: &Piece, load: f64, state: &mut RodState<W>) {
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(target_arch = "x86_64", not(feature = "baseline")))]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the processor has AVX2, as was just asked.
         unsafe { advance_avx2(piece, load, state) };
@@ -100,7 +100,7 @@ pub fn advance<const W: usize>(piece: &Piece, load: f64, state: &mut RodState<W>
 }
 
 /// The same kernel compiled for four lanes at a time. No fused multiply-add: both builds give equal bits.
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", not(feature = "baseline")))]
 #[target_feature(enable = "avx2")]
 fn advance_avx2<const W: usize>(piece: &Piece, load: f64, state: &mut RodState<W>) {
     dispatch(piece, load, state);

@@ -1,3 +1,5 @@
+mod dual;
+
 use super::*;
 
 fn slender(stretch: f64) -> LawTable {
