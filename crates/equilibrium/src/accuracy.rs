@@ -35,6 +35,13 @@ pub enum Finish {
     Failed(NewtonEnd),
 }
 
+/// Where a segment ended, and how far the last correction was expected to turn and move that end.
+struct ExpectedEnd {
+    pose: Pose,
+    turn: Vector3<f64>,
+    shift: Vector3<f64>,
+}
+
 /// The integral of the dead force over a piece, with the stepper's own weights.
 pub(crate) fn dead_force(piece: &Piece) -> Vector3<f64> {
     let sample = |i: usize| Vector3::from(piece.loads[i].dead_force);
@@ -112,7 +119,7 @@ impl Equilibrium {
     }
 
     /// Where the segments would end after the last correction, by the tangent at hand.
-    fn expected_ends(&self) -> Vec<Vec<(Vector3<f64>, Vector3<f64>, Pose)>> {
+    fn expected_ends(&self) -> Vec<Vec<ExpectedEnd>> {
         let step = &self.last_step;
         let mut all = Vec::with_capacity(self.ends.len());
         for (span, ends) in self.ends.iter().enumerate() {
@@ -129,7 +136,7 @@ impl Equilibrium {
                     let first = self.layout.spans[span].inner[k - 1].unknown;
                     (0..12).for_each(|i| add(i, first + i));
                 }
-                expected.push((turn, shift, pose_of(&end.state)));
+                expected.push(ExpectedEnd { pose: pose_of(&end.state), turn, shift });
             }
             all.push(expected);
         }
@@ -137,15 +144,15 @@ impl Equilibrium {
     }
 
     /// The largest scaled difference of the segment ends from where they were expected.
-    fn end_change(&self, expected: &[Vec<(Vector3<f64>, Vector3<f64>, Pose)>]) -> f64 {
+    fn end_change(&self, expected: &[Vec<ExpectedEnd>]) -> f64 {
         let mut largest = 0.0_f64;
         for ((span, old), new) in self.lowered.spans.iter().zip(expected).zip(&self.ends) {
             let law = &self.lowered.beams[span.beam];
             let shorter = law.scale.length / law.length;
-            for ((turn, shift, before), end) in old.iter().zip(new) {
+            for (before, end) in old.iter().zip(new) {
                 let now = pose_of(&end.state);
-                let turned = log(&(now.rotation * before.rotation.inverse())) - turn;
-                let moved = now.position - before.position - shift;
+                let turned = log(&(now.rotation * before.pose.rotation.inverse())) - before.turn;
+                let moved = now.position - before.pose.position - before.shift;
                 largest = largest.max(turned.norm()).max(moved.norm() * shorter);
             }
         }

@@ -8,19 +8,22 @@
 //! - `mesh`: how many steps and shooting segments a span gets;
 //! - `layout`: which number of the state and which unknown belongs to what;
 //! - `shooting`: spans carried from node to node with their derivatives;
-//! - `assembly`: residual and tangent; `system`: the `System` trait on it;
+//! - `prepare`: the state at rest, and when mesh and layout change;
+//! - `assembly`: residual and tangent of spans, `couplings` of joints, loads and springs; `system`: the `System` trait on it;
 //! - `accuracy`: the error estimate; `diagnose`: what is loose or held twice; `extract`: the solution.
 
 mod accuracy;
 mod assembly;
 mod beam;
 mod coordinates;
+mod couplings;
 mod diagnose;
 mod error;
 mod extract;
 mod layout;
 mod lower;
 mod mesh;
+mod prepare;
 mod scale;
 mod shooting;
 mod system;

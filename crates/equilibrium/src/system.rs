@@ -1,12 +1,11 @@
 //! The prepared problem, and what `nonlinear` needs to solve it.
 
-use crate::beam::BeamLaw;
 use crate::coordinates::Coordinates;
 use crate::error::ProblemError;
 use crate::layout::{CoordinateSlot, Layout, PoseSlot};
 use crate::lower::{self, Lowered};
 use crate::mesh::{Level, SpanMesh};
-use crate::shooting::{Plain, SegmentEnd, carry_plain, jump};
+use crate::shooting::{Plain, SegmentEnd};
 use flexura_mechanics::joint::Configuration;
 use flexura_model::{LoadId, LoadTarget, Model};
 use flexura_nonlinear::{BLOCK, Breakdown, Chain, Dense, System};
@@ -37,8 +36,8 @@ pub struct Equilibrium {
     scratch: Vec<f64>,
     /// The step by which the state was last moved.
     pub(crate) last_step: Vec<f64>,
-    forced_segments: Option<usize>,
-    finest_path: f64,
+    pub(crate) forced_segments: Option<usize>,
+    pub(crate) finest_path: f64,
     pub(crate) counts: Counts,
 }
 
@@ -53,11 +52,6 @@ pub struct Counts {
     pub residuals: usize,
 }
 
-/// Accuracy of the mesh on the way to the full load where only positions depend on it.
-const LOOSE: f64 = 1e-4;
-/// The same where a closure error turns into force.
-const SNUG: f64 = 1e-7;
-
 impl Equilibrium {
     /// Prepares a model. The state is the mechanism at rest, unloaded.
     ///
@@ -71,7 +65,7 @@ impl Equilibrium {
             layout: Layout::default(),
             x: Vec::new(),
             load: 0.0,
-            accuracy: LOOSE,
+            accuracy: 1.0,
             known_force: Vec::new(),
             tangent: Dense::default(),
             chains: Vec::new(),
@@ -144,141 +138,6 @@ impl Equilibrium {
         self.sum_known_forces();
     }
 
-    /// Accuracy of the mesh while the load is raised.
-    pub(crate) fn path_accuracy(&self) -> f64 {
-        let closed = self.lowered.spans.iter().any(|span| span.end.is_some());
-        if closed { SNUG } else { LOOSE }
-    }
-
-    /// Puts the mechanism at rest: unloaded, every body where the model puts it.
-    pub fn rest(&mut self) {
-        self.load = 0.0;
-        self.counts = Counts::default();
-        self.accuracy = self.path_accuracy().min(self.finest_path);
-        let first_time = self.meshes.is_empty();
-        self.levels = self.lowered.spans.iter().map(|span| self.expected_level(span)).collect();
-        let counts: Vec<usize> = (0..self.lowered.spans.len()).map(|_| self.forced_segments.unwrap_or(1)).collect();
-        let fits = !first_time && counts.iter().zip(&self.meshes).all(|(c, m)| *c == m.segments.len());
-        if fits {
-            self.restep(self.accuracy, false);
-            self.set_weights(false);
-        } else {
-            self.remesh(&counts);
-        }
-        self.x.clear();
-        self.x.resize(self.layout.state, 0.0);
-        for (node, slot) in self.lowered.nodes.iter().zip(&self.layout.nodes) {
-            write_pose(&mut self.x, slot.state, &node.initial);
-        }
-        for (span, slots) in self.lowered.spans.iter().zip(&self.layout.spans) {
-            self.x[slots.start.state..slots.start.state + 4].copy_from_slice(&span.start.coordinates.initial);
-            if let Some(end) = &span.end {
-                self.x[slots.end.state..slots.end.state + 4].copy_from_slice(&end.coordinates.initial);
-            }
-        }
-        for (joint, slots) in self.lowered.joints.iter().zip(&self.layout.joints) {
-            let at = slots.coordinates.state;
-            self.x[at..at + 4].copy_from_slice(&joint.coordinates.initial);
-        }
-        for i in 0..self.lowered.spans.len() {
-            let beam = self.lowered.spans[i].beam;
-            for k in 0..self.layout.spans[i].inner.len() {
-                let s = self.meshes[i].start_of(k + 1);
-                let local = self.lowered.scale.pose_in(&self.lowered.beams[beam].shape.pose(s));
-                let pose = self.lowered.beam_rest[beam] * local;
-                let at = self.layout.spans[i].inner[k].state;
-                write_pose(&mut self.x, at, &pose);
-            }
-        }
-    }
-
-    /// What the given loads lead one to expect along a span.
-    fn expected_level(&self, span: &lower::Span) -> Level {
-        let mut level = Level::default();
-        let law = &self.lowered.beams[span.beam];
-        for j in &span.jumps {
-            level.force += j.load.dead.force.norm() + j.load.follower.force.norm();
-            level.moment = level.moment.max((j.load.dead.moment + j.load.follower.moment).norm());
-        }
-        if law.is_loaded() {
-            let piece = law.piece(span.s[0], span.s[1], 1);
-            let total = |q: &[f64; 3]| Vector3::from(*q).norm() * piece.length;
-            level.force += piece.loads.iter().map(|l| total(&l.dead_force) + total(&l.section_force)).fold(0.0, f64::max);
-        }
-        level
-    }
-
-    fn remesh(&mut self, counts: &[usize]) {
-        let accuracy = self.accuracy;
-        self.meshes = self
-            .lowered
-            .spans
-            .iter()
-            .zip(counts)
-            .zip(&self.levels)
-            .map(|((span, &count), level)| {
-                let law = &self.lowered.beams[span.beam];
-                SpanMesh::build(law, span, count, |s| level.steps(law, s, accuracy))
-            })
-            .collect();
-        self.layout = Layout::new(&self.lowered, &self.meshes);
-        self.ends = self.meshes.iter().map(|m| vec![SegmentEnd::new(); m.segments.len()]).collect();
-        self.chains = vec![Chain::default(); self.meshes.len()];
-        self.gaps = self.meshes.iter().map(|m| vec![[0.0; BLOCK]; m.segments.len() - 1]).collect();
-        self.r = vec![0.0; self.layout.interface];
-        self.set_weights(false);
-        self.sum_known_forces();
-    }
-
-    /// Adapts the number of steps to the present levels; never fewer than now if `grow`.
-    pub(crate) fn restep(&mut self, accuracy: f64, grow: bool) {
-        self.accuracy = accuracy;
-        for ((span, mesh), level) in self.lowered.spans.iter().zip(&mut self.meshes).zip(&self.levels) {
-            let law: &BeamLaw = &self.lowered.beams[span.beam];
-            mesh.restep(law, |s, present| {
-                let wanted = level.steps(law, s, accuracy);
-                if grow { wanted.max(present) } else { wanted }
-            });
-        }
-        self.sum_known_forces();
-    }
-
-    /// Multiplies the number of steps of every stretch.
-    pub(crate) fn multiply_steps(&mut self, factor: f64) {
-        for (span, mesh) in self.lowered.spans.iter().zip(&mut self.meshes) {
-            let law: &BeamLaw = &self.lowered.beams[span.beam];
-            mesh.restep(law, |_, present| ((present as f64 * factor).ceil() as usize).max(present + 1));
-        }
-        self.sum_known_forces();
-    }
-
-    pub(crate) fn total_steps(&self) -> usize {
-        self.meshes.iter().map(SpanMesh::steps).sum()
-    }
-
-    /// The internal force at the start of determinate spans: the sum of the dead forces beyond. Distributed
-    /// force is summed with the stepper's own weights, so that it is what the stepper would find.
-    fn sum_known_forces(&mut self) {
-        self.known_force = self
-            .lowered
-            .spans
-            .iter()
-            .zip(&self.meshes)
-            .map(|(span, mesh)| {
-                let mut sum = Vector3::zeros();
-                if span.determinate {
-                    for j in &span.jumps {
-                        sum += j.load.dead.force;
-                    }
-                    for stretch in mesh.stretches() {
-                        sum += crate::accuracy::dead_force(&stretch.piece);
-                    }
-                }
-                sum
-            })
-            .collect();
-    }
-
     /// What counts as a change of 1: L for positions, 1 for turnings, EI/L² and EI/L for wrenches. For the
     /// final accuracy (`relative`) a beam's wrenches count against the largest that it carries, if that is more:
     /// beyond EI/L² their digits are limited by round-off, not by the method.
@@ -342,85 +201,6 @@ impl Equilibrium {
         }
     }
 
-    /// The state at arc length `s` of a span, starting from the segment that holds it.
-    pub(crate) fn state_at(&self, span: usize, s: f64) -> Plain {
-        let mesh = &self.meshes[span];
-        let segment =
-            (0..mesh.segments.len()).rev().find(|&k| mesh.start_of(k) <= s).unwrap_or(0);
-        let jumps = &self.lowered.spans[span].jumps;
-        let mut state = if segment == 0 {
-            let mut head = self.head_state(span);
-            for &j in &mesh.first_jumps {
-                jump(&jumps[j], self.load, &mut head);
-            }
-            head
-        } else {
-            self.inner_state(self.layout.spans[span].inner[segment - 1].state)
-        };
-        let law = &self.lowered.beams[self.lowered.spans[span].beam];
-        for stretch in &mesh.segments[segment] {
-            if stretch.s[1] <= s {
-                carry_plain(std::slice::from_ref(stretch), jumps, self.load, &mut state);
-            } else {
-                let part = (s - stretch.s[0]) / (stretch.s[1] - stretch.s[0]);
-                if part > 0.0 {
-                    let steps = ((stretch.piece.steps as f64 * part).ceil() as usize).max(1);
-                    let piece = law.piece(stretch.s[0], s, steps);
-                    flexura_mechanics::rod::advance(&piece, self.load, &mut state);
-                }
-                break;
-            }
-        }
-        state
-    }
-
-    /// New segments where forces have grown; true if the state's layout changed.
-    fn resegment(&mut self) -> bool {
-        let counts: Vec<usize> = self
-            .lowered
-            .spans
-            .iter()
-            .zip(&self.levels)
-            .zip(&self.meshes)
-            .map(|((span, level), mesh)| {
-                let wanted = level.segments(&self.lowered.beams[span.beam], span);
-                let present = mesh.segments.len();
-                // A little more than needed, so that a growing force does not cut again at every step.
-                if wanted > present { (wanted * 3).div_ceil(2) } else { present }
-            })
-            .collect();
-        if counts.iter().zip(&self.meshes).all(|(c, m)| *c == m.segments.len()) {
-            return false;
-        }
-        let old = self.clone();
-        self.remesh(&counts);
-        self.x = vec![0.0; self.layout.state];
-        for (to, from) in self.layout.nodes.iter().zip(&old.layout.nodes) {
-            self.x[to.state..to.state + 7].copy_from_slice(&old.x[from.state..from.state + 7]);
-        }
-        for (to, from) in self.layout.joints.iter().zip(&old.layout.joints) {
-            copy(&mut self.x, to.coordinates.state, &old.x, from.coordinates.state, 4);
-            copy(&mut self.x, to.wrench.state, &old.x, from.wrench.state, 6);
-        }
-        for i in 0..self.layout.spans.len() {
-            let (to, from) = (&self.layout.spans[i], &old.layout.spans[i]);
-            copy(&mut self.x, to.start.state, &old.x, from.start.state, 4);
-            copy(&mut self.x, to.wrench.state, &old.x, from.wrench.state, 6);
-            if self.lowered.spans[i].end.is_some() {
-                copy(&mut self.x, to.end.state, &old.x, from.end.state, 4);
-            }
-            for k in 0..to.inner.len() {
-                let state = old.state_at(i, self.meshes[i].start_of(k + 1));
-                let at = self.layout.spans[i].inner[k].state;
-                self.x[at..at + 4].copy_from_slice(&state.rotation);
-                self.x[at + 4..at + 7].copy_from_slice(&state.position);
-                self.x[at + 7..at + 10].copy_from_slice(&state.force);
-                self.x[at + 10..at + 13].copy_from_slice(&state.moment);
-            }
-        }
-        true
-    }
-
     /// Every joint and hold with where its configuration lies.
     fn coordinate_slots(&self) -> impl Iterator<Item = (&Coordinates, &CoordinateSlot)> {
         let holds = self.lowered.spans.iter().zip(&self.layout.spans).flat_map(|(span, slots)| {
@@ -459,10 +239,6 @@ impl Equilibrium {
             self.layout.spans.iter().flat_map(|s| s.inner.iter().map(|i| (i.state + 7, i.unknown + 6, 6)));
         wrenches.chain(inner)
     }
-}
-
-fn copy(to: &mut [f64], at: usize, from: &[f64], start: usize, count: usize) {
-    to[at..at + count].copy_from_slice(&from[start..start + count]);
 }
 
 pub(crate) fn read_pose(x: &[f64], at: usize) -> Pose {

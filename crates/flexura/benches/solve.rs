@@ -6,6 +6,8 @@
 //! built for the baseline processor, which valgrind knows): the difference between two runs that do a different
 //! number of solves and nothing else differently.
 
+#![allow(clippy::print_stdout, reason = "a bench prints its table")]
+
 use flexura::model::*;
 use flexura::spatial::{Pose, Vector3, exp};
 use flexura::{Prepared, model};

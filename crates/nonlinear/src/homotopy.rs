@@ -248,7 +248,7 @@ fn try_point(system: &mut impl System, options: &PathOptions, step: &mut [f64]) 
         }
         system.newton_step(step);
         let after = system.size(step);
-        if !(after <= options.largest_contraction * before) {
+        if after.is_nan() || after > options.largest_contraction * before {
             return Try::NotContracting;
         }
         system.retract(step);

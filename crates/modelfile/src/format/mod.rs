@@ -1,8 +1,9 @@
 //! The model file's format, written once: the reader, the JSON Schema and the reference page all follow it.
 //!
-//! The statics in [`tables`] say which keys there are, what stands behind each, its dimension, whether it
+//! The statics in [`tables`] and [`attachments`] say which keys there are, what stands behind each, its dimension, whether it
 //! is needed, and give an example. What a builder does with the values is not said here.
 
+mod attachments;
 mod tables;
 
 use flexura_expression::Dimension;
