@@ -28,6 +28,7 @@ impl Equilibrium {
         self.accuracy = self.path_accuracy().min(self.finest_path);
         let first_time = self.meshes.is_empty();
         self.levels = self.lowered.spans.iter().map(|span| self.expected_level(span)).collect();
+        self.expected.clone_from(&self.levels);
         let counts: Vec<usize> = (0..self.lowered.spans.len()).map(|_| self.forced_segments.unwrap_or(1)).collect();
         let fits = !first_time && counts.iter().zip(&self.meshes).all(|(c, m)| *c == m.segments.len());
         if fits {

@@ -26,12 +26,16 @@ pub struct Equilibrium {
     pub(crate) known_force: Vec<Vector3<f64>>,
     pub(crate) tangent: Dense,
     pub(crate) chains: Vec<Chain>,
+    /// An earlier tangent, factorised.
+    kept: (Dense, Vec<Chain>),
     pub(crate) gaps: Vec<Vec<[f64; BLOCK]>>,
     /// Residual of the interface equations.
     pub(crate) r: Vec<f64>,
     /// Ends of all segments of all spans, at the last evaluation.
     pub(crate) ends: Vec<Vec<SegmentEnd>>,
     pub(crate) levels: Vec<Level>,
+    /// Levels to be expected at the full load.
+    pub(crate) expected: Vec<Level>,
     weights: Vec<f64>,
     scratch: Vec<f64>,
     /// The step by which the state was last moved.
@@ -69,10 +73,12 @@ impl Equilibrium {
             known_force: Vec::new(),
             tangent: Dense::default(),
             chains: Vec::new(),
+            kept: (Dense::default(), Vec::new()),
             gaps: Vec::new(),
             r: Vec::new(),
             ends: Vec::new(),
             levels: Vec::new(),
+            expected: Vec::new(),
             weights: Vec::new(),
             scratch: Vec::new(),
             last_step: Vec::new(),
@@ -201,6 +207,38 @@ impl Equilibrium {
         }
     }
 
+    /// The Newton step that a factorised tangent gives for the last residual.
+    fn step_with(&mut self, tangent: &mut Dense, chains: &mut [Chain], step: &mut [f64]) {
+        self.counts.newton_steps += 1;
+        let n = self.layout.interface;
+        let mut rhs = std::mem::take(&mut self.scratch);
+        rhs.clear();
+        rhs.extend(self.r.iter().map(|r| -r));
+        for (i, chain) in chains.iter_mut().enumerate() {
+            if let Some(last) = self.layout.spans[i].inner.last() {
+                let known = chain.reduce(&self.gaps[i]);
+                rhs[last.unknown..last.unknown + BLOCK].copy_from_slice(&known);
+            }
+        }
+        tangent.solve(&mut rhs);
+        step[..n].copy_from_slice(&rhs);
+        self.scratch = rhs;
+        for (i, chain) in chains.iter().enumerate() {
+            let inner = &self.layout.spans[i].inner;
+            if inner.len() < 2 {
+                continue;
+            }
+            let mut head = [0.0; crate::shooting::MAX_COLUMNS];
+            let count = self.head_unknowns(i, |k, unknown| head[k] = step[unknown]);
+            let last: [f64; BLOCK] = std::array::from_fn(|k| step[inner[inner.len() - 1].unknown + k]);
+            let mut states = vec![[0.0; BLOCK]; inner.len() - 1];
+            chain.back_substitute(&head[..count], &last, &mut states);
+            for (slot, state) in inner.iter().zip(&states) {
+                step[slot.unknown..slot.unknown + BLOCK].copy_from_slice(state);
+            }
+        }
+    }
+
     /// Every joint and hold with where its configuration lies.
     fn coordinate_slots(&self) -> impl Iterator<Item = (&Coordinates, &CoordinateSlot)> {
         let holds = self.lowered.spans.iter().zip(&self.layout.spans).flat_map(|(span, slots)| {
@@ -289,34 +327,24 @@ impl System for Equilibrium {
     }
 
     fn newton_step(&mut self, step: &mut [f64]) {
-        self.counts.newton_steps += 1;
-        let n = self.layout.interface;
-        let mut rhs = std::mem::take(&mut self.scratch);
-        rhs.clear();
-        rhs.extend(self.r.iter().map(|r| -r));
-        for i in 0..self.chains.len() {
-            if let Some(last) = self.layout.spans[i].inner.last() {
-                let known = self.chains[i].reduce(&self.gaps[i]);
-                rhs[last.unknown..last.unknown + BLOCK].copy_from_slice(&known);
-            }
-        }
-        self.tangent.solve(&mut rhs);
-        step[..n].copy_from_slice(&rhs);
-        self.scratch = rhs;
-        for i in 0..self.chains.len() {
-            let inner = &self.layout.spans[i].inner;
-            if inner.len() < 2 {
-                continue;
-            }
-            let mut head = [0.0; crate::shooting::MAX_COLUMNS];
-            let count = self.head_unknowns(i, |k, unknown| head[k] = step[unknown]);
-            let last: [f64; BLOCK] = std::array::from_fn(|k| step[inner[inner.len() - 1].unknown + k]);
-            let mut states = vec![[0.0; BLOCK]; inner.len() - 1];
-            self.chains[i].back_substitute(&head[..count], &last, &mut states);
-            for (slot, state) in inner.iter().zip(&states) {
-                step[slot.unknown..slot.unknown + BLOCK].copy_from_slice(state);
-            }
-        }
+        let (mut tangent, mut chains) = (std::mem::take(&mut self.tangent), std::mem::take(&mut self.chains));
+        self.step_with(&mut tangent, &mut chains, step);
+        (self.tangent, self.chains) = (tangent, chains);
+    }
+
+    fn keep_tangent(&mut self) {
+        self.kept.0.clone_from(&self.tangent);
+        self.kept.1.clone_from(&self.chains);
+    }
+
+    fn kept_step(&mut self, step: &mut [f64]) {
+        let (mut tangent, mut chains) = std::mem::take(&mut self.kept);
+        self.step_with(&mut tangent, &mut chains, step);
+        self.kept = (tangent, chains);
+    }
+
+    fn product(&self, a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).zip(&self.weights).map(|((a, b), w)| a * b * w * w).sum()
     }
 
     fn retract(&mut self, step: &[f64]) {
@@ -407,6 +435,29 @@ impl System for Equilibrium {
                 step[unknown + i] = to[state + i] - from[state + i];
             }
         }
+    }
+
+    fn expect(&mut self, response: &[f64]) {
+        for (i, slots) in self.layout.spans.iter().enumerate() {
+            if slots.wrench.count == 6 {
+                let at = slots.wrench.unknown;
+                let force = Vector3::new(response[at], response[at + 1], response[at + 2]).norm();
+                self.expected[i].force = self.expected[i].force.max(force);
+            }
+        }
+    }
+
+    /// √(F/EI) L of the span where that is largest: the shooting tangent of a loaded straight rod goes like its
+    /// cosine. The force is taken to grow with the load from what it is now, or from what is expected.
+    fn phase(&self, load: f64) -> f64 {
+        let mut largest = 0.0_f64;
+        for ((span, expected), level) in self.lowered.spans.iter().zip(&self.expected).zip(&self.levels) {
+            let law = &self.lowered.beams[span.beam];
+            let now = if self.load > 1e-3 { level.force / self.load } else { 0.0 };
+            let length = (span.s[1] - span.s[0]) / law.scale.length;
+            largest = largest.max((expected.force.max(now) * load * law.soft()).sqrt() * length);
+        }
+        largest
     }
 
     fn renew(&mut self) -> bool {

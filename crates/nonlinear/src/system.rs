@@ -33,6 +33,15 @@ pub trait System {
     /// `step = -J⁻¹ r` with the last residual and the last tangent, which may be of different states.
     fn newton_step(&mut self, step: &mut [f64]);
 
+    /// Keeps the last tangent for [`System::kept_step`], as long as the number of unknowns stays.
+    fn keep_tangent(&mut self);
+
+    /// [`System::newton_step`] with the tangent that was kept.
+    fn kept_step(&mut self, step: &mut [f64]);
+
+    /// The scaled scalar product of two steps.
+    fn product(&self, a: &[f64], b: &[f64]) -> f64;
+
     /// Moves the state along `step`.
     fn retract(&mut self, step: &[f64]);
 
@@ -50,6 +59,13 @@ pub trait System {
 
     /// The step that leads from one stored state to another.
     fn difference(&self, from: &[f64], to: &[f64], step: &mut [f64]);
+
+    /// Tells the system the tangent of the path at rest, so that it can judge [`System::phase`].
+    fn expect(&mut self, response: &[f64]);
+
+    /// A measure that grows by at most π between two neighbouring sign changes of one eigenvalue of J as the load
+    /// grows: steps that raise it by less cannot pass two of them unseen.
+    fn phase(&self, load: f64) -> f64;
 
     /// Called where a point of the path is reached: lets the system renew its discretisation there. True if
     /// states stored before no longer fit.

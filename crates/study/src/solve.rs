@@ -62,10 +62,13 @@ const CAREFUL_PATH: PathOptions = PathOptions {
     first_response: 0.4,
     largest_correction: 0.3,
     largest_contraction: 0.3,
+    least_agreement: 0.7,
+    largest_phase: 1.0,
     point_tolerance: 1e-4,
     largest_turning: 0.7,
-    shortest_step: 1e-9,
-    crossing_step: 1e-6,
+    shortest_step: 1e-11,
+    crossing_step: 1e-7,
+    largest_deviation: 0.3,
     steps: 20_000,
 };
 
@@ -156,7 +159,7 @@ impl Prepared {
     /// From where it stands, which should be near, to `tolerance`; from rest if it is not near.
     pub fn solve_from_here(&mut self, tolerance: f64, progress: &mut dyn FnMut(Progress)) -> Outcome {
         self.problem.set_load(1.0);
-        let outcome = self.finish(tolerance, PathWork { taken: 1, refused: 0 }, NEAR);
+        let outcome = self.finish(tolerance, PathWork { taken: 1, ..PathWork::default() }, NEAR);
         if outcome.status == Status::Converged {
             return outcome;
         }
@@ -178,9 +181,15 @@ impl Prepared {
                 Some("the tangent has no inverse at the full load: a fold or branch point".to_string()),
                 f64::NAN,
             ),
-            Finish::Failed(end) => {
-                (Status::Stalled, Some(format!("Newton's method stopped at the full load ({end:?})")), f64::NAN)
-            }
+            Finish::Failed(_) => (
+                Status::Stalled,
+                Some(
+                    "the last corrections at the full load do not get smaller: the load is at a fold or so large that \
+                     round-off rules; try slightly less load or a larger tolerance"
+                        .to_string(),
+                ),
+                f64::NAN,
+            ),
         };
         Outcome { status, reason, error_estimate, path }
     }
@@ -191,6 +200,13 @@ impl Prepared {
         solution.status = outcome.status;
         solution.reason = outcome.reason.clone();
         solution.error_estimate = outcome.error_estimate;
+        if let Some(load) = outcome.path.crossing {
+            solution.warnings.push(format!(
+                "the path from rest passes a branch point at {:.4} % of the load; the equilibrium found lies beyond it \
+                 and may be unstable",
+                100.0 * load
+            ));
+        }
         solution.work.load_steps = outcome.path.taken;
         solution.work.rejected_steps = outcome.path.refused;
         let counts = self.problem.counts();

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{NewtonEnd, NewtonOptions, converge};
+use crate::{Breakdown, NewtonEnd, NewtonOptions, converge};
 
 /// One unknown: r = f(x) - λ b.
 struct Scalar {
@@ -9,11 +9,12 @@ struct Scalar {
     f: fn(f64) -> (f64, f64),
     r: f64,
     slope: f64,
+    kept: f64,
 }
 
 impl Scalar {
     fn new(goal: f64, f: fn(f64) -> (f64, f64)) -> Self {
-        Self { x: 0.0, load: 0.0, goal, f, r: 0.0, slope: 1.0 }
+        Self { x: 0.0, load: 0.0, goal, f, r: 0.0, slope: 1.0, kept: 1.0 }
     }
 }
 
@@ -39,6 +40,15 @@ impl System for Scalar {
     fn newton_step(&mut self, step: &mut [f64]) {
         step[0] = -self.r / self.slope;
     }
+    fn keep_tangent(&mut self) {
+        self.kept = self.slope;
+    }
+    fn kept_step(&mut self, step: &mut [f64]) {
+        step[0] = -self.r / self.kept;
+    }
+    fn product(&self, a: &[f64], b: &[f64]) -> f64 {
+        a[0] * b[0]
+    }
     fn retract(&mut self, step: &[f64]) {
         self.x += step[0];
     }
@@ -57,6 +67,10 @@ impl System for Scalar {
     }
     fn difference(&self, from: &[f64], to: &[f64], step: &mut [f64]) {
         step[0] = to[0] - from[0];
+    }
+    fn expect(&mut self, _: &[f64]) {}
+    fn phase(&self, _: f64) -> f64 {
+        0.0
     }
     fn renew(&mut self) -> bool {
         false

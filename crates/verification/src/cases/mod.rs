@@ -1,0 +1,38 @@
+//! The cases, one file for each group.
+
+mod bend45;
+mod clamped_clamped;
+mod curves;
+mod elastica;
+mod follower;
+mod four_bar;
+mod helix_wrench;
+mod roll_up;
+mod spring;
+mod strip;
+mod taper;
+
+use crate::Case;
+
+/// All cases, in the order of the table.
+pub fn cases() -> Vec<Case> {
+    [
+        &elastica::CASES[..],
+        &roll_up::CASES,
+        &follower::CASES,
+        &bend45::CASES,
+        &curves::CASES,
+        &helix_wrench::CASES,
+        &spring::CASES,
+        &strip::CASES,
+        &taper::CASES,
+        &clamped_clamped::CASES,
+        &four_bar::CASES,
+    ]
+    .concat()
+}
+
+/// The case of that id.
+pub fn find(id: &str) -> Option<Case> {
+    cases().into_iter().find(|case| case.id == id)
+}

@@ -1,0 +1,130 @@
+//! `docs/verification.md`.
+
+use crate::{Case, Row, cases};
+use std::fmt::Write;
+
+const HEAD: &str = "\
+# Verification
+
+What flexura answers beside what is known. Every line is a test of `crates/verification`, which fails when a
+difference exceeds what is needed; this page is generated from the same cases
+(`UPDATE_DOCS=1 cargo test -p flexura-verification --test documentation`). The references are computed in
+`crates/testkit`, by closed forms and by methods that share nothing with the solver.
+
+Differences are magnitudes, relative to the beam's length L, to one radian, to EI/L² for forces and to EI/L for
+moments (EI the softest of bending and torsion) unless the quantity says otherwise. They are printed as powers of
+ten that bound them, no smaller than 1e-12, so that this page does not change with round-off.
+
+";
+
+const TAIL: &str = "
+Besides, `cargo test` holds that
+
+- the error estimate that every solution reports is honest: in every case above that is marked `*`, which has a
+  closed form, the true error of all poses and wrenches is within ten times the estimate, at the tolerances 1e-4,
+  1e-6, 1e-8 and 1e-10 (`crates/verification/tests/estimates.rs`);
+- the answer is the same to 1e-9 when the whole model is turned and moved, when units change, when a beam is
+  described from its other end, when a beam is split in two by a massless body, and when things are named
+  and ordered differently (`crates/verification/tests/invariance.rs`);
+- every tangent is exact: the whole system's, on a model with one of everything, to 2e-10 against differences of
+  order six, as far as these go (`crates/equilibrium/src/tests.rs`), and those of each law where the law is.
+";
+
+/// No difference is printed as less: below lies round-off, which is not the same on every machine.
+const FLOOR: i32 = -12;
+
+/// The page: one line for each case, from running them all.
+pub fn markdown() -> String {
+    let mut text = HEAD.to_string();
+    text.push_str("| case | what | reference | needed | largest difference |\n|---|---|---|---|---|\n");
+    for case in cases() {
+        let mark = if case.closed_form.is_some() { " *" } else { "" };
+        let found = summary(&case);
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "| `{}`{mark} | {} | {} | {} | {found} |",
+            case.id, case.title, case.citation, case.needed
+        );
+    }
+    text.push_str(TAIL);
+    text
+}
+
+/// The bounds of the rows, those of one tolerance together.
+fn summary(case: &Case) -> String {
+    let rows = match (case.run)() {
+        Ok(rows) => rows,
+        Err(error) => return format!("failed: {error}"),
+    };
+    if let Some(row) = rows.iter().find(|row| !row.passes()) {
+        return format!("failed: {}, off by {:.1e}", row.quantity, row.difference);
+    }
+    let mut tolerances: Vec<f64> = rows.iter().map(|row| row.tolerance).collect();
+    tolerances.sort_by(f64::total_cmp);
+    tolerances.dedup();
+    let parts: Vec<String> = tolerances
+        .iter()
+        .map(|&tolerance| {
+            let group: Vec<&Row> = rows.iter().filter(|row| row.tolerance == tolerance).collect();
+            let largest = group.iter().map(|row| row.difference).fold(0.0, f64::max);
+            let bound = bound(largest).min(tolerance);
+            if tolerances.len() == 1 {
+                format!("< {bound:.0e}")
+            } else {
+                format!("< {bound:.0e} of {tolerance:.0e} allowed")
+            }
+        })
+        .collect();
+    parts.join("; ")
+}
+
+/// The power of ten above a magnitude.
+fn bound(difference: f64) -> f64 {
+    let exponent = if difference > 0.0 { difference.log10().ceil() as i32 } else { FLOOR };
+    10f64.powi(exponent.max(FLOOR))
+}
+
+/// Does a page say the same as [`markdown`] does now? Bounds may differ by one power of ten, since a difference
+/// that is made of round-off may lie on either side of one; everything else must be the same.
+///
+/// # Errors
+/// The first words that differ.
+pub fn is_current(page: &str, now: &str) -> Result<(), String> {
+    let (old, new): (Vec<&str>, Vec<&str>) =
+        (page.split_whitespace().collect(), now.split_whitespace().collect());
+    for (a, b) in old.iter().zip(&new) {
+        let near = match (a.trim_end_matches(';').parse::<f64>(), b.trim_end_matches(';').parse::<f64>()) {
+            (Ok(a), Ok(b)) => (a / b).log10().abs() < 1.001,
+            _ => false,
+        };
+        if a != b && !near {
+            return Err(format!("the page has `{a}` where it should have `{b}`"));
+        }
+    }
+    if old.len() == new.len() {
+        Ok(())
+    } else {
+        Err("the page is longer or shorter than it should be".to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_are_powers_of_ten_that_are_not_smaller() {
+        assert_eq!(format!("{:.0e}", bound(3e-10)), "1e-9");
+        assert_eq!(format!("{:.0e}", bound(0.0)), "1e-12");
+        assert_eq!(format!("{:.0e}", bound(2e-17)), "1e-12");
+    }
+
+    #[test]
+    fn a_page_may_differ_by_one_power_of_ten_and_no_more() {
+        assert!(is_current("x < 1e-9 |", "x < 1e-10 |").is_ok());
+        assert!(is_current("x < 1e-8 |", "x < 1e-10 |").is_err());
+        assert!(is_current("x < 1e-9 |", "y < 1e-9 |").is_err());
+        assert!(is_current("x", "x y").is_err());
+    }
+}

@@ -1,0 +1,62 @@
+//! One test for each case: no row may exceed its tolerance.
+
+use flexura_verification::{Row, cases, find};
+
+/// Runs a case; a failure shows all its rows.
+fn check(id: &str) {
+    let case = find(id).unwrap_or_else(|| panic!("no case {id}"));
+    let rows = (case.run)().unwrap_or_else(|error| panic!("{id}: {error}"));
+    assert!(!rows.is_empty(), "{id} compares nothing");
+    let show = |row: &Row| {
+        let mark = if row.passes() { "" } else { "  <-- FAILS" };
+        let estimate = row.estimate.map_or("none".to_string(), |estimate| format!("{estimate:.1e}"));
+        format!(
+            "{}: reference {:.13e}, ours {:.13e}, difference {:.1e}, allowed {:.0e}, estimate {estimate}{mark}\n",
+            row.quantity, row.reference, row.ours, row.difference, row.tolerance,
+        )
+    };
+    let report: String = rows.iter().map(show).collect();
+    assert!(rows.iter().all(Row::passes), "{id}:\n{report}");
+}
+
+macro_rules! conforms {
+    ($($id:ident),* $(,)?) => {
+        $(
+            #[test]
+            fn $id() {
+                check(stringify!($id));
+            }
+        )*
+
+        const TESTED: &[&str] = &[$(stringify!($id)),*];
+    };
+}
+
+conforms!(
+    elastica,
+    elastica_mattiasson,
+    elastica_push,
+    roll_up,
+    follower_planar,
+    follower_spatial,
+    bend_45_polar,
+    bend_45,
+    ellipse,
+    helix,
+    space_curve,
+    helix_by_wrench,
+    spring_small_load,
+    spring_wahl,
+    spring_bows,
+    strip_50_g,
+    tapered_beam,
+    clamped_clamped,
+    four_bar_balance,
+    four_bar,
+);
+
+#[test]
+fn every_case_has_a_test() {
+    let ids: Vec<&str> = cases().iter().map(|case| case.id).collect();
+    assert_eq!(ids, TESTED);
+}
