@@ -1,1 +1,40 @@
-fn main() {}
+//! flexura's chores.
+//!
+//! ```text
+//! cargo xtask test       everything that must hold: the checks, the tests, the documentation
+//! cargo xtask generate   rewrite the files that are generated
+//! cargo xtask tidy       the checks that compile nothing
+//! ```
+//!
+//! Each step prints one line before it starts; the first failure ends the run with the command to repeat it.
+
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "chores talk to a terminal")]
+
+mod generate;
+mod layers;
+mod map;
+mod python;
+mod step;
+mod test;
+mod tidy;
+
+use std::process::ExitCode;
+
+const USAGE: &str = "usage: cargo xtask <test | generate | tidy>";
+
+fn main() -> ExitCode {
+    let verb = std::env::args().nth(1).unwrap_or_default();
+    let result = match verb.as_str() {
+        "test" => test::run(),
+        "generate" => generate::write(),
+        "tidy" => tidy::run(),
+        _ => Err(USAGE.to_string()),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("\nxtask: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

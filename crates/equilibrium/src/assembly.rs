@@ -95,8 +95,7 @@ impl Equilibrium {
         let target = if left == 0.0 || is_zero(hold.mismatch) {
             moving
         } else {
-            let twist =
-                Twist { angular: hold.mismatch.angular * left, linear: hold.mismatch.linear * left };
+            let twist = Twist { angular: hold.mismatch.angular * left, linear: hold.mismatch.linear * left };
             moving * Pose::exp(&twist)
         };
         let mut subspace = [Twist { angular: V::zeros(), linear: V::zeros() }; 3];
@@ -414,8 +413,7 @@ impl Equilibrium {
                 });
                 self.target_columns(held, slot.unknown, |unknown, twist| {
                     // The arm turns with the node but does not change when the node only shifts.
-                    let shifts = twist.angular == V::zeros()
-                        && (base + 3..base + 6).contains(&unknown);
+                    let shifts = twist.angular == V::zeros() && (base + 3..base + 6).contains(&unknown);
                     if !shifts {
                         sink.add(base, unknown, &-twist.linear.cross(&wrench.force));
                     }

@@ -2,9 +2,7 @@
 
 use crate::error::ProblemError;
 use crate::scale::Scale;
-use flexura_geometry::{
-    Compliance, RestShape, compliance, is_uniform, mass_per_length, section_breaks,
-};
+use flexura_geometry::{Compliance, RestShape, compliance, is_uniform, mass_per_length, section_breaks};
 use flexura_mechanics::ode::{NODES, STAGES};
 use flexura_mechanics::rod::{Coupled, LawTable, LoadSample, Piece, Shearable, Slender};
 use flexura_model::{Beam, BeamId, LoadAxes, Material, Model, Profile, Section};
@@ -162,9 +160,8 @@ impl BeamLaw {
     }
 
     fn try_law_at(&self, s: f64) -> Result<LocalLaw, String> {
-        let compliance =
-            compliance(&self.section, self.material.as_ref(), self.beam.theory, s, self.length)
-                .map_err(|error| error.to_string())?;
+        let compliance = compliance(&self.section, self.material.as_ref(), self.beam.theory, s, self.length)
+            .map_err(|error| error.to_string())?;
         let k0 = self.shape.curvature(s);
         if !(k0.x.is_finite() && k0.y.is_finite() && k0.z.is_finite()) {
             return Err(format!("the rest curvature is not finite at s = {s} m"));

@@ -166,17 +166,41 @@ impl Coordinates {
     }
 
     /// ½ Σ k (q - rest)², nondimensional.
-    pub fn energy(&self, configuration: &Configuration) -> f64 {
-        let q = self.joint.coordinates(configuration);
+    pub fn energy(&self, configuration: &Configuration, load: f64) -> f64 {
+        let q = self.coordinates(configuration, load);
         self.laws
             .iter()
             .enumerate()
-            .filter(|(_, law)| matches!(law.drive, Drive::Free { .. }))
             .map(|(i, law)| {
                 let limit = push(law, q[i]).map_or(0.0, |(beyond, k)| 0.5 * k * beyond * beyond);
                 0.5 * law.stiffness * (q[i] - law.rest).powi(2) + limit
             })
             .sum()
+    }
+
+    /// What stiffnesses and limits push with along each coordinate, nondimensional: `k (q - rest)`.
+    pub fn push_back(&self, configuration: &Configuration, load: f64) -> [f64; MAX_FREEDOMS] {
+        let q = self.coordinates(configuration, load);
+        let mut force = [0.0; MAX_FREEDOMS];
+        for (i, law) in self.laws.iter().enumerate() {
+            force[i] =
+                law.stiffness * (q[i] - law.rest) + push(law, q[i]).map_or(0.0, |(beyond, k)| k * beyond);
+        }
+        force
+    }
+
+    /// The coordinates; driven ones as they were driven, beyond half a turn too.
+    fn coordinates(&self, configuration: &Configuration, load: f64) -> [f64; MAX_FREEDOMS] {
+        let start = self.joint.coordinates(&self.initial);
+        let mut q = self.joint.coordinates(configuration);
+        if self.laws.iter().all(|law| matches!(law.drive, Drive::Driven { .. })) {
+            for ((value, law), start) in q.iter_mut().zip(&self.laws).zip(start) {
+                if let Drive::Driven { coordinate } = law.drive {
+                    *value = start + load * (coordinate - start);
+                }
+            }
+        }
+        q
     }
 
     /// Coordinates that lie outside their limits: number, value and range, SI.
@@ -194,8 +218,8 @@ impl Coordinates {
     }
 
     /// Coordinates as a user reads them, SI.
-    pub fn values(&self, configuration: &Configuration) -> Vec<f64> {
-        self.joint.coordinates(configuration)[..self.laws.len()].iter().map(|q| q * self.unit).collect()
+    pub fn values(&self, configuration: &Configuration, load: f64) -> Vec<f64> {
+        self.coordinates(configuration, load)[..self.laws.len()].iter().map(|q| q * self.unit).collect()
     }
 }
 

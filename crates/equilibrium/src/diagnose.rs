@@ -65,11 +65,19 @@ impl Equilibrium {
                 (None, _) => "no force and moment beyond its free end".to_string(),
             };
             add(format!("{name}: {wrench} at its start"), format!("{name}: {end}"), slots.wrench.count);
-            add(format!("{name}: coordinates of its end"), format!("{name}: effort at its end"), slots.end.count);
+            add(
+                format!("{name}: coordinates of its end"),
+                format!("{name}: effort at its end"),
+                slots.end.count,
+            );
         }
         for (joint, slots) in self.model.joints.iter().zip(&self.layout.joints) {
             let name = format!("joint.{}", joint.name);
-            add(format!("{name}: coordinates"), format!("{name}: effort on its coordinates"), slots.coordinates.count);
+            add(
+                format!("{name}: coordinates"),
+                format!("{name}: effort on its coordinates"),
+                slots.coordinates.count,
+            );
             add(format!("{name}: force and moment"), format!("{name}: its two frames fit"), 6);
         }
         census.warnings.extend(self.wide_strips());

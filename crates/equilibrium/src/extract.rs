@@ -25,19 +25,22 @@ impl Equilibrium {
         for (joint, slots) in self.lowered.joints.iter().zip(&self.layout.joints) {
             let configuration = self.configuration(&slots.coordinates);
             let wrench = Wrench::new(self.triple(slots.wrench.state), self.triple(slots.wrench.state + 3));
-            energy += joint.coordinates.energy(&configuration) * scale.moment();
+            energy += joint.coordinates.energy(&configuration, self.load) * scale.moment();
             let base = self.node_pose(joint.parent.node) * joint.parent.frame;
             let wrench = scale.wrench_out(&wrench);
-            // Efforts are what Hᵀ W gives, for free coordinates and driven ones alike.
+            // Hᵀ W = effort - k (q - rest): the effort is what a drive must supply, or the load that was given.
+            let held = joint.coordinates.push_back(&configuration, self.load);
+            let per_effort = scale.moment() / joint.coordinates.unit;
             let efforts = (0..joint.coordinates.joint.freedoms())
                 .map(|i| {
                     let h = joint.coordinates.joint.subspace(&configuration, i);
                     (base.rotation * h.angular).dot(&wrench.moment)
                         + (base.rotation * h.linear).dot(&wrench.force)
+                        + held[i] * per_effort
                 })
                 .collect();
             joints.push(JointSolution {
-                coordinates: joint.coordinates.values(&configuration),
+                coordinates: joint.coordinates.values(&configuration, self.load),
                 efforts,
                 wrench,
             });
@@ -55,9 +58,10 @@ impl Equilibrium {
             });
         }
         for (span, slots) in self.lowered.spans.iter().zip(&self.layout.spans) {
-            energy += span.start.coordinates.energy(&self.configuration(&slots.start)) * scale.moment();
+            energy +=
+                span.start.coordinates.energy(&self.configuration(&slots.start), self.load) * scale.moment();
             if let Some(end) = &span.end {
-                energy += end.coordinates.energy(&self.configuration(&slots.end)) * scale.moment();
+                energy += end.coordinates.energy(&self.configuration(&slots.end), self.load) * scale.moment();
             }
         }
         let mut warnings = self.warnings().to_vec();
@@ -69,7 +73,11 @@ impl Equilibrium {
             residual: self.residual_size(),
             error_estimate: 0.0,
             warnings,
-            work: Work { integration_steps: self.total_steps(), segments: self.segments(), ..Work::default() },
+            work: Work {
+                integration_steps: self.total_steps(),
+                segments: self.segments(),
+                ..Work::default()
+            },
             beams,
             bodies,
             joints,
@@ -139,7 +147,8 @@ impl Equilibrium {
                         }
                     };
                     let mut a = stretch.s[0];
-                    let inside = places.iter().filter(|s| **s > stretch.s[0] + tiny && **s <= stretch.s[1] + tiny);
+                    let inside =
+                        places.iter().filter(|s| **s > stretch.s[0] + tiny && **s <= stretch.s[1] + tiny);
                     for &b in inside {
                         let b = b.min(stretch.s[1]);
                         // Two-point Gauss for the energy of this interval.

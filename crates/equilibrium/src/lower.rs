@@ -308,7 +308,9 @@ fn lower_beam(model: &Model, lowered: &mut Lowered, beam: usize) -> Result<(), P
         };
         let inside: Vec<Jump> = jumps
             .iter()
-            .filter(|j| (j.s >= a || near(j.s, a)) && (j.s < b || (last && near(j.s, b))) && !(i > 0 && near(j.s, a)))
+            .filter(|j| {
+                (j.s >= a || near(j.s, a)) && (j.s < b || (last && near(j.s, b))) && !(i > 0 && near(j.s, a))
+            })
             .cloned()
             .collect();
         let law = &lowered.beams[beam];
@@ -392,10 +394,8 @@ fn hold_spin(lowered: &mut Lowered, span: &mut Span, path: &str) {
 }
 
 fn lower_joint(_model: &Model, lowered: &mut Lowered, joint: &flexura_model::Joint) {
-    let parent = Carrier {
-        node: node_of(joint.parent.body),
-        frame: lowered.scale.pose_in(&joint.parent.pose),
-    };
+    let parent =
+        Carrier { node: node_of(joint.parent.body), frame: lowered.scale.pose_in(&joint.parent.pose) };
     let fixed = lowered.carrier_pose(&parent);
     let child_node = node_of(joint.child);
     let frame = match &joint.child_pose {

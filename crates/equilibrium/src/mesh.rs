@@ -76,9 +76,8 @@ impl SpanMesh {
         cuts.retain(|s| *s > first + tiny && *s <= last + tiny);
         cuts.sort_by(f64::total_cmp);
         cuts.dedup_by(|a, b| near(*a, *b));
-        let jumps_at = |s: f64| -> Vec<usize> {
-            (0..span.jumps.len()).filter(|&j| near(span.jumps[j].s, s)).collect()
-        };
+        let jumps_at =
+            |s: f64| -> Vec<usize> { (0..span.jumps.len()).filter(|&j| near(span.jumps[j].s, s)).collect() };
         let mut segments = vec![Vec::new()];
         let mut a = first;
         for b in cuts {

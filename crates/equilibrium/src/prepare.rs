@@ -29,7 +29,8 @@ impl Equilibrium {
         let first_time = self.meshes.is_empty();
         self.levels = self.lowered.spans.iter().map(|span| self.expected_level(span)).collect();
         self.expected.clone_from(&self.levels);
-        let counts: Vec<usize> = (0..self.lowered.spans.len()).map(|_| self.forced_segments.unwrap_or(1)).collect();
+        let counts: Vec<usize> =
+            (0..self.lowered.spans.len()).map(|_| self.forced_segments.unwrap_or(1)).collect();
         let fits = !first_time && counts.iter().zip(&self.meshes).all(|(c, m)| *c == m.segments.len());
         if fits {
             self.restep(self.accuracy, false);
@@ -75,7 +76,11 @@ impl Equilibrium {
         if law.is_loaded() {
             let piece = law.piece(span.s[0], span.s[1], 1);
             let total = |q: &[f64; 3]| Vector3::from(*q).norm() * piece.length;
-            level.force += piece.loads.iter().map(|l| total(&l.dead_force) + total(&l.section_force)).fold(0.0, f64::max);
+            level.force += piece
+                .loads
+                .iter()
+                .map(|l| total(&l.dead_force) + total(&l.section_force))
+                .fold(0.0, f64::max);
         }
         level
     }
@@ -154,8 +159,7 @@ impl Equilibrium {
     /// The state at arc length `s` of a span, starting from the segment that holds it.
     pub(crate) fn state_at(&self, span: usize, s: f64) -> Plain {
         let mesh = &self.meshes[span];
-        let segment =
-            (0..mesh.segments.len()).rev().find(|&k| mesh.start_of(k) <= s).unwrap_or(0);
+        let segment = (0..mesh.segments.len()).rev().find(|&k| mesh.start_of(k) <= s).unwrap_or(0);
         let jumps = &self.lowered.spans[span].jumps;
         let mut state = if segment == 0 {
             let mut head = self.head_state(span);

@@ -46,10 +46,7 @@ pub(crate) fn plain(pose: &Pose, wrench: &Wrench) -> Plain {
 
 pub(crate) fn pose_of(state: &Plain) -> Pose {
     let [w, x, y, z] = state.rotation;
-    Pose::new(
-        UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)),
-        Vector3::from(state.position),
-    )
+    Pose::new(UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)), Vector3::from(state.position))
 }
 
 pub(crate) fn wrench_of(state: &Plain) -> Wrench {

@@ -221,7 +221,11 @@ fn the_newton_direction_closes_every_gap_of_many_segments() {
         let largest = r0.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
         for i in 0..r0.len() {
             let slope = (8.0 * (s[0][i] - s[1][i]) - (s[2][i] - s[3][i])) / (12.0 * h);
-            assert!((slope + r0[i]).abs() < 1e-8 * largest, "{segments} segments, row {i}: {slope} for {}", r0[i]);
+            assert!(
+                (slope + r0[i]).abs() < 1e-8 * largest,
+                "{segments} segments, row {i}: {slope} for {}",
+                r0[i]
+            );
         }
     }
 }

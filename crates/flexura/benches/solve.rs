@@ -59,7 +59,13 @@ const INEXTENSIBLE: BeamTheory = BeamTheory { shear: false, extension: false };
 
 fn elastica() -> Model {
     let curve = Curve::Straight { length: 1.0 };
-    cantilever(stiffness(1.0, 1.0, 1.0, 1.0), curve, INEXTENSIBLE, Pose::identity(), Vector3::new(0.0, 10.0, 0.0))
+    cantilever(
+        stiffness(1.0, 1.0, 1.0, 1.0),
+        curve,
+        INEXTENSIBLE,
+        Pose::identity(),
+        Vector3::new(0.0, 10.0, 0.0),
+    )
 }
 
 /// The 45° bend: R = 100, 1 x 1, E = 1e7, ν = 0, P = 600 out of its plane.

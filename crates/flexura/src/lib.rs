@@ -113,5 +113,7 @@ pub use flexura_output as output;
 pub use flexura_post as post;
 pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;
-pub use flexura_study::{Census, Equilibrium, Options, Outcome, Prepared, ProblemError, Progress, check, solve};
+pub use flexura_study::{
+    Census, Equilibrium, Options, Outcome, Prepared, ProblemError, Progress, check, solve,
+};
 pub use solve_file::{Error, Solved, solve_file};

@@ -33,11 +33,7 @@ impl PointLoad {
     }
 
     /// How the load changes when the point turns by the small global turning `dtheta`.
-    pub fn change(
-        &self,
-        rotation: &flexura_spatial::UnitQuaternion<f64>,
-        dtheta: &Vector3<f64>,
-    ) -> Wrench {
+    pub fn change(&self, rotation: &flexura_spatial::UnitQuaternion<f64>, dtheta: &Vector3<f64>) -> Wrench {
         let turned = self.follower.rotated(rotation);
         Wrench::new(dtheta.cross(&turned.force), dtheta.cross(&turned.moment))
     }
@@ -57,7 +53,8 @@ mod tests {
         let rotation = exp(&Vector3::new(0.4, 0.2, -1.0));
         let d = Vector3::new(0.2, -0.6, 0.3);
         let h = 1e-5;
-        let central = (load.at(&(exp(&(d * h)) * rotation)).force - load.at(&(exp(&(-d * h)) * rotation)).force)
+        let central = (load.at(&(exp(&(d * h)) * rotation)).force
+            - load.at(&(exp(&(-d * h)) * rotation)).force)
             / (2.0 * h);
         assert!((load.change(&rotation, &d).force - central).norm() < 1e-9);
         let dead = PointLoad { follower: Wrench::zero(), ..load };

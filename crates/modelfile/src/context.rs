@@ -234,6 +234,33 @@ impl<'a> Context<'a> {
         })
     }
 
+    /// [`Context::lower`], trying each kind of the variable in turn; only the last failure is reported.
+    pub(crate) fn lower_either(
+        &self,
+        node: &Node,
+        path: &str,
+        text: &str,
+        variable: &str,
+        kinds: [Kind; 2],
+    ) -> Read<Lowered> {
+        if let Ok(expression) = Expression::parse_with_variable(text, variable) {
+            let silent = Cell::new(false);
+            let lowered = expression.lower(&mut |reference| match reference.name() {
+                Some(name) if name == variable => Ok(Binding::Variable(kinds[0])),
+                _ => self.parameter(reference, text, &silent).map(Binding::Value),
+            });
+            if let Ok(lowered) = lowered
+                && (lowered.kind == Kind::Plain || lowered.constant().is_some())
+            {
+                return Ok(lowered);
+            }
+            if silent.get() {
+                return Err(Reported);
+            }
+        }
+        self.lower(node, path, text, Some((variable, kinds[1])))
+    }
+
     /// A constant: a number, or an expression of parameters.
     pub(crate) fn quantity(&self, node: &Node, path: &str, infinite: bool) -> Read<Option<Quantity>> {
         let quantity = match &node.value {

@@ -459,10 +459,7 @@ impl<'c, 'a> Reader<'c, 'a> {
                 return Err(self.context.wrong(&node.span, path, message));
             }
         };
-        let mut lowered = self.context.lower(node, path, text, Some((variable, Kind::Plain)))?;
-        if lowered.kind != Kind::Plain && lowered.constant().is_none() {
-            lowered = self.context.lower(node, path, text, Some((variable, kind)))?;
-        }
+        let lowered = self.context.lower_either(node, path, text, variable, [Kind::Plain, kind])?;
         if let Some(span) = &lowered.not_finite {
             let span = self.context.inner(node, span);
             return Err(self.context.wrong(&span, path, "the expression gives no finite number"));

@@ -120,8 +120,13 @@ impl Chain {
                 }
             }
         }
-        let mut link =
-            Link { order, column, next: [[0.0; BLOCK]; BLOCK], head: Vec::with_capacity(nu), known: [0.0; BLOCK] };
+        let mut link = Link {
+            order,
+            column,
+            next: [[0.0; BLOCK]; BLOCK],
+            head: Vec::with_capacity(nu),
+            known: [0.0; BLOCK],
+        };
         link.next.copy_from_slice(&next[..BLOCK]);
         for j in 0..nu {
             link.head.push(std::array::from_fn(|i| head[i][j]));

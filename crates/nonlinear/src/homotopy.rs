@@ -74,6 +74,10 @@ pub enum PathEnd {
     SingularAtRest,
 }
 
+/// A first correction that is never too large: where the response is small for reasons of symmetry, curvature is
+/// all there is, and the comparison of tangents guards against unstable branches nearby.
+const SMALL: f64 = 0.02;
+
 /// A correction too small for its direction to mean anything.
 const SAME: f64 = 1e-9;
 
@@ -160,7 +164,7 @@ pub fn follow(
         width = load - last;
         system.set_load(load);
         let may_cross = width <= options.crossing_step * load;
-        let reach = options.largest_correction.min(options.largest_deviation * system.size(&step)).max(SAME);
+        let reach = options.largest_correction.min(options.largest_deviation * system.size(&step)).max(SMALL);
         let mut outcome = try_point(system, options, !may_cross, reach, &mut step);
         if matches!(outcome, Try::Good { .. }) && system.orientation() != orientation {
             if may_cross {
@@ -321,7 +325,7 @@ fn try_point(
             other.clear();
         }
         system.retract(step);
-        if before <= 0.1 * options.point_tolerance.min(0.1 * reach) {
+        if before <= 0.1 * options.point_tolerance.min(0.2 * reach) {
             return Try::Good { first };
         }
         if system.residual().is_err() {
@@ -333,7 +337,7 @@ fn try_point(
             return Try::NotContracting;
         }
         system.retract(step);
-        if after <= options.point_tolerance.min(0.1 * reach) {
+        if after <= options.point_tolerance.min(0.2 * reach) {
             return Try::Good { first };
         }
     }

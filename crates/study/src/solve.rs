@@ -2,9 +2,7 @@
 
 use flexura_equilibrium::{Equilibrium, Finish, ProblemError};
 use flexura_model::{LoadId, Model};
-use flexura_nonlinear::{
-    Breakdown, NewtonEnd, PathEnd, PathOptions, PathWork, System, follow,
-};
+use flexura_nonlinear::{Breakdown, NewtonEnd, PathEnd, PathOptions, PathWork, System, follow};
 use flexura_solution::{Solution, Status};
 use flexura_spatial::Vector3;
 
@@ -55,6 +53,8 @@ pub struct Outcome {
 /// Size of the first Newton correction up to which a known state counts as near.
 const NEAR: f64 = 0.5;
 
+/// √(F/EI) L beyond which a load is taken for a mistake.
+const LARGEST_PHASE: f64 = 1e4;
 /// Mesh accuracy of a second look at a path that seemed to end.
 const CAREFUL_MESH: f64 = 1e-9;
 /// How the second look is taken.
@@ -114,7 +114,19 @@ impl Prepared {
     /// From rest to the full load, then to `tolerance`.
     pub fn solve(&mut self, tolerance: f64, progress: &mut dyn FnMut(Progress)) -> Outcome {
         self.problem.rest();
-        let mut report = |load: f64, steps: usize| progress(Progress { load_fraction: load, load_steps: steps });
+        let mut report =
+            |load: f64, steps: usize| progress(Progress { load_fraction: load, load_steps: steps });
+        if self.problem.phase(1.0) > LARGEST_PHASE {
+            return Outcome {
+                status: Status::IterationLimit,
+                reason: Some(
+                    "the load is more than a hundred million times EI/L²; check its unit and the section's dimensions"
+                        .to_string(),
+                ),
+                error_estimate: f64::NAN,
+                path: PathWork::default(),
+            };
+        }
         let (mut end, mut path) = follow(&mut self.problem, &self.path, &mut report);
         if let PathEnd::Stalled { .. } = end {
             // A coarse mesh can end a path that the beam itself does not: look again with a fine one.

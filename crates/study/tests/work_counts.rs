@@ -38,7 +38,7 @@ fn solved(ei: f64, curve: Curve, start: Pose, force: Vector3<f64>) -> Work {
         moment: Vector3::zeros(),
         frame: LoadFrame::Global,
     });
-    let solution = solve(&model, &Options::default(), &mut |_| {}).unwrap();
+    let solution = solve(&model, &Options::default(), &mut |_| {}).expect("the model is sound");
     assert_eq!(solution.status, Status::Converged);
     solution.work
 }

@@ -34,7 +34,9 @@ fn coordinates_come_back(kind: JointKind) {
     let joint = joint(kind);
     let wanted = coordinates(kind);
     let at = joint.configuration(&wanted);
-    assert!(joint.coordinates(&at)[..kind.freedoms()].iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-14));
+    assert!(
+        joint.coordinates(&at)[..kind.freedoms()].iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-14)
+    );
     let nearest = joint.nearest(&joint.pose(&at));
     assert!(nearest.iter().zip(&at).all(|(a, b)| (a - b).abs() < 1e-14), "{kind:?}");
     let step = joint.step(&joint.home(), &at);

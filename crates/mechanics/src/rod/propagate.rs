@@ -123,12 +123,7 @@ fn entry<T>(table: &[T], step: usize, stage: usize) -> &T {
 
 /// A quantity `a` that turns with the start frame, with its change: `Rᵀ a` and `Rᵀ(δa - δθ × a)`.
 #[inline(always)]
-fn localised<const W: usize>(
-    r0: &Matrix,
-    a: &[f64; 3],
-    da: &Lanes<W>,
-    dtheta: &Lanes<W>,
-) -> Lanes<W> {
+fn localised<const W: usize>(r0: &Matrix, a: &[f64; 3], da: &Lanes<W>, dtheta: &Lanes<W>) -> Lanes<W> {
     let mut local = apply_transposed_lanes(r0, &add(da, &cross_lanes(a, dtheta)));
     let value = apply_transposed(r0, a);
     for i in 0..3 {

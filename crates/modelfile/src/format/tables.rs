@@ -1,12 +1,17 @@
 //! Tables of what a mechanism is made of: file, materials, sections, beams, curves.
 
-
 use super::attachments::{BODY, END, JOINT, LOAD, MASS, SPRING};
 use super::{Key, Named, Need, Shape, Table, Variant, Variants};
 use Need::{Along, Default, Optional, Required};
 use flexura_expression::Dimension as D;
 
-pub(super) const fn key(name: &'static str, shape: Shape, need: Need, example: &'static str, doc: &'static str) -> Key {
+pub(super) const fn key(
+    name: &'static str,
+    shape: Shape,
+    need: Need,
+    example: &'static str,
+    doc: &'static str,
+) -> Key {
     Key { name, shape, need, doc, example }
 }
 

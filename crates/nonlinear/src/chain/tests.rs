@@ -26,15 +26,15 @@ fn times(b: &Block, x: &[f64; BLOCK]) -> [f64; BLOCK] {
 fn gives_back_the_states_of_a_long_stiff_chain() {
     let count = 40;
     let b = blocks(count);
-    let head: Vec<Vec<f64>> =
-        (0..BLOCK).map(|i| (0..6).map(|j| if i == j { 1.0 } else { 0.2 / (1 + i + j) as f64 }).collect()).collect();
+    let head: Vec<Vec<f64>> = (0..BLOCK)
+        .map(|i| (0..6).map(|j| if i == j { 1.0 } else { 0.2 / (1 + i + j) as f64 }).collect())
+        .collect();
     // Any states will do: the gaps are made to fit.
     let u: Vec<f64> = (0..6).map(|j| (j as f64 - 2.0) * 0.3).collect();
     let x: Vec<[f64; BLOCK]> =
         (0..=count).map(|k| std::array::from_fn(|i| ((k * 13 + i * 7) as f64).cos())).collect();
-    let mut gaps = vec![std::array::from_fn(|i| {
-        x[0][i] - head[i].iter().zip(&u).map(|(h, u)| h * u).sum::<f64>()
-    })];
+    let mut gaps =
+        vec![std::array::from_fn(|i| x[0][i] - head[i].iter().zip(&u).map(|(h, u)| h * u).sum::<f64>())];
     for k in 0..count {
         let moved = times(&b[k], &x[k]);
         gaps.push(std::array::from_fn(|i| x[k + 1][i] - moved[i]));
@@ -48,7 +48,11 @@ fn gives_back_the_states_of_a_long_stiff_chain() {
     for i in 0..BLOCK {
         let left: f64 = chain.left_head[i].iter().zip(&u).map(|(p, u)| p * u).sum::<f64>()
             + chain.left_state[i].iter().zip(&x[count]).map(|(q, x)| q * x).sum::<f64>();
-        assert!((left - known[i]).abs() < 1e-9 * (1.0 + known[i].abs()), "row {i}: {left} against {}", known[i]);
+        assert!(
+            (left - known[i]).abs() < 1e-9 * (1.0 + known[i].abs()),
+            "row {i}: {left} against {}",
+            known[i]
+        );
     }
     let mut states = vec![[0.0; BLOCK]; chain.eliminated()];
     chain.back_substitute(&u, &x[count], &mut states);

@@ -82,7 +82,8 @@ fn newton_shortens_its_step_where_the_full_one_diverges() {
     // The full Newton step for atan diverges from |x| > 1.3917.
     let mut system = Scalar::new(0.0, |x| (x.atan(), 1.0 / (1.0 + x * x)));
     system.x = 20.0;
-    let end = converge(&mut system, &NewtonOptions { tolerance: 1e-13, iterations: 50, nearest: f64::INFINITY });
+    let end =
+        converge(&mut system, &NewtonOptions { tolerance: 1e-13, iterations: 50, nearest: f64::INFINITY });
     assert!(matches!(end, NewtonEnd::Converged { .. }), "{end:?}");
     assert!(system.x.abs() < 1e-13);
 }

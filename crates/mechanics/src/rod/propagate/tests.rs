@@ -55,8 +55,7 @@ fn moved(base: &RodState<1>, x: &[f64; 12]) -> RodState<1> {
     let angle = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
     let s = if angle == 0.0 { 0.5 } else { (0.5 * angle).sin() / angle };
     let mut out = *base;
-    out.rotation =
-        unit_product(&[(0.5 * angle).cos(), s * x[0], s * x[1], s * x[2]], &base.rotation);
+    out.rotation = unit_product(&[(0.5 * angle).cos(), s * x[0], s * x[1], s * x[2]], &base.rotation);
     for i in 0..3 {
         out.position[i] += x[3 + i];
         out.force[i] += x[6 + i];

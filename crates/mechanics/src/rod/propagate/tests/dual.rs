@@ -97,7 +97,8 @@ fn transposed(r: &[[D; 3]; 3]) -> [[D; 3]; 3] {
 
 /// (compliance 6 x 6, rest curvature) of a uniform law.
 fn law(table: &LawTable) -> ([[f64; 6]; 6], [f64; 3]) {
-    let diagonal = |d: [f64; 6]| std::array::from_fn(|i| std::array::from_fn(|j| if i == j { d[i] } else { 0.0 }));
+    let diagonal =
+        |d: [f64; 6]| std::array::from_fn(|i| std::array::from_fn(|j| if i == j { d[i] } else { 0.0 }));
     match table {
         LawTable::Slender(l) => {
             let b = l[0].bend;
@@ -123,9 +124,8 @@ fn propagate(start: [D; 13], table: &LawTable, length: f64, steps: usize, loaded
         let (force, moment) = ([y[7], y[8], y[9]], [y[10], y[11], y[12]]);
         let (n, m) = (times(&back, &force), times(&back, &moment));
         let load = [n[0], n[1], n[2], m[0], m[1], m[2]];
-        let strain: [D; 6] = std::array::from_fn(|i| {
-            (0..6).fold(D::from(0.0), |sum, j| sum + load[j] * compliance[i][j])
-        });
+        let strain: [D; 6] =
+            std::array::from_fn(|i| (0..6).fold(D::from(0.0), |sum, j| sum + load[j] * compliance[i][j]));
         let nu = [strain[0] + 1.0, strain[1], strain[2]];
         let k: [D; 3] = std::array::from_fn(|i| strain[3 + i] + k0[i]);
         let (w, v) = (y[0], [y[1], y[2], y[3]]);
