@@ -60,7 +60,8 @@ proptest! {
     #[test]
     fn curvatures_integrate_back_to_the_curve(points in points()) {
         let shape = RestShape::new(&Curve::Points { points }, &minimising()).unwrap();
-        let (distance, angle) = mismatch(&shape, 1500);
+        // Sharp bends between close points need the reference integrator to be this fine.
+        let (distance, angle) = mismatch(&shape, 12_000);
         prop_assert!(distance < 1e-10 && angle < 1e-9, "{} {}", distance, angle);
     }
 
