@@ -76,7 +76,7 @@ pub enum PathEnd {
 
 /// A first correction that is never too large: where the response is small for reasons of symmetry, curvature is
 /// all there is, and the comparison of tangents guards against unstable branches nearby.
-const SMALL: f64 = 0.02;
+const SMALL: f64 = 0.03;
 
 /// A correction too small for its direction to mean anything.
 const SAME: f64 = 1e-9;
@@ -190,7 +190,7 @@ pub fn follow(
                 points.push(Point { load, state: snapshot(system) });
                 progress(load, work.taken);
                 slope = None;
-                width * (0.5 * reach / first.max(1e-12)).powf(1.0 / order.max(1) as f64).clamp(0.3, 6.0)
+                width * (0.4 * reach / first.max(1e-12)).powf(1.0 / order.max(1) as f64).clamp(0.3, 6.0)
             }
             Try::Far { first } => {
                 work.refused += 1;

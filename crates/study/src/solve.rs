@@ -128,12 +128,17 @@ impl Prepared {
             };
         }
         let (mut end, mut path) = follow(&mut self.problem, &self.path, &mut report);
-        if let PathEnd::Stalled { .. } = end {
+        if let PathEnd::Stalled { load: before } = end {
             // A coarse mesh can end a path that the beam itself does not: look again with a fine one.
             self.problem.refine_path(CAREFUL_MESH);
             self.problem.rest();
-            let again = follow(&mut self.problem, &CAREFUL_PATH, &mut report);
+            let mut again = follow(&mut self.problem, &CAREFUL_PATH, &mut report);
             self.problem.refine_path(f64::INFINITY);
+            if matches!(again.0, PathEnd::Stalled { load } if load < before) {
+                // It came less far: the first look is the better answer.
+                self.problem.rest();
+                again = follow(&mut self.problem, &self.path, &mut report);
+            }
             (end, path) = (again.0, PathWork { refused: path.refused + again.1.refused, ..again.1 });
         }
         match end {
