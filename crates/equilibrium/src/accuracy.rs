@@ -15,6 +15,8 @@ use flexura_spatial::{Pose, Vector3, log};
 
 /// By how much halving the steps is trusted to reduce the error, at least.
 const GAIN: f64 = 32.0;
+/// Corrections on one mesh; more would chase round-off.
+const POLISHES: usize = 10;
 /// Refinements before the wanted accuracy is given up.
 const REFINEMENTS: usize = 12;
 
@@ -81,14 +83,14 @@ impl Equilibrium {
             let floor = self.floor() + 1e-16 * self.total_steps() as f64;
             // What Newton still leaves is polished away on the same mesh.
             let mut left = rate * moved;
-            while left > 0.1 * tolerance.max(floor) {
+            for _ in 0..POLISHES {
+                if left <= 0.1 * tolerance.max(floor) {
+                    break;
+                }
                 let size = match self.correct(&mut step) {
                     Ok(size) => size,
                     Err(breakdown) => return Finish::Failed(NewtonEnd::Broken(breakdown)),
                 };
-                if size > 0.5 * left.max(10.0 * floor) && size > rate.max(0.5) * moved {
-                    break;
-                }
                 rate = (size / moved).min(1.0);
                 moved = moved.max(size);
                 left = rate * size;
