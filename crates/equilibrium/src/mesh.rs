@@ -35,6 +35,8 @@ pub(crate) struct Level {
 const GROWTH: f64 = 8.0;
 /// Error of one radian of turning in unit steps: with it, `error = CONSTANT * turning * step^8`.
 const CONSTANT: f64 = 3e-9;
+/// Most steps of a stretch; a load that wants more is a mistake, or beyond double precision.
+const MOST_STEPS: usize = 100_000;
 /// A step never turns a section further than this, however loose the accuracy.
 const LARGEST_TURN: f64 = 2.2;
 
@@ -57,7 +59,7 @@ impl Level {
     pub fn steps(&self, law: &BeamLaw, s: [f64; 2], accuracy: f64) -> usize {
         let turning = (s[1] - s[0]) / law.scale.length * self.rate(law, s[0], s[1]);
         let turn = (accuracy / (CONSTANT * turning.max(1.0))).powf(0.125).min(LARGEST_TURN);
-        ((turning / turn).ceil() as usize).clamp(1, 10_000_000)
+        ((turning / turn).ceil() as usize).clamp(1, MOST_STEPS)
     }
 }
 
