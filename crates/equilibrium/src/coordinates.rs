@@ -2,7 +2,7 @@
 
 use crate::scale::Scale;
 use flexura_mechanics::joint::{Configuration, Joint, Kinematics, MAX_FREEDOMS};
-use flexura_model::{CoordinateLaw, Drive, JointKind, JointLaw};
+use flexura_model::{CoordinateKind, CoordinateLaw, Drive, JointKind, JointLaw};
 use flexura_spatial::{Pose, Twist, Vector3};
 
 /// A joint's kinematics with what acts on its coordinates, nondimensional.
@@ -18,19 +18,23 @@ pub(crate) struct Coordinates {
     /// A ball whose turning about one line (in M's axes) is held: the two lines left.
     pub spin_held: Option<[Vector3<f64>; 2]>,
     /// What to multiply each coordinate with to get its SI value.
-    pub unit: f64,
+    pub units: [f64; MAX_FREEDOMS],
 }
 
 impl Coordinates {
     pub fn new(law: &JointLaw, scale: &Scale, initial_pose: &Pose) -> Self {
         let joint = Joint::new(law);
-        let length = if law.kind == JointKind::Prismatic { scale.length } else { 1.0 };
-        // Force along a length, or moment about an axis, and stiffness of either.
-        let effort = if law.kind == JointKind::Prismatic { scale.force } else { scale.moment() };
+        let mut units = [1.0; MAX_FREEDOMS];
+        for (unit, kind) in units.iter_mut().zip(law.kind.coordinate_kinds()) {
+            *unit = if *kind == CoordinateKind::Length { scale.length } else { 1.0 };
+        }
         let laws: Vec<CoordinateLaw> = law
             .coordinates
             .iter()
-            .map(|c| CoordinateLaw {
+            .zip(units)
+            // Force along a length, or moment about an axis.
+            .map(|(c, length)| (c, length, scale.moment() / length))
+            .map(|(c, length, effort)| CoordinateLaw {
                 drive: match c.drive {
                     Drive::Free { effort: e } => Drive::Free { effort: e / effort },
                     Drive::Driven { coordinate } => Drive::Driven { coordinate: coordinate / length },
@@ -52,7 +56,7 @@ impl Coordinates {
             laws,
             free,
             spin_held: None,
-            unit: length,
+            units,
         }
     }
 
@@ -86,7 +90,7 @@ impl Coordinates {
         match &self.spin_held {
             Some(lines) => {
                 let v = self.joint.pose(configuration).rotation * (lines[0] * step[0] + lines[1] * step[1]);
-                full = v.into();
+                full[..3].copy_from_slice(v.as_slice());
             }
             None => {
                 for (i, s) in self.free.iter().zip(step) {
@@ -101,7 +105,8 @@ impl Coordinates {
         let full = self.joint.step(from, to);
         match &self.spin_held {
             Some(lines) => {
-                let local = self.joint.pose(from).rotation.inverse() * Vector3::from(full);
+                let local =
+                    self.joint.pose(from).rotation.inverse() * Vector3::new(full[0], full[1], full[2]);
                 out[0] = lines[0].dot(&local);
                 out[1] = lines[1].dot(&local);
             }
@@ -212,14 +217,18 @@ impl Coordinates {
             .filter_map(|(i, law)| {
                 let limits = law.limits?;
                 let outside = q[i] < limits.range[0] || q[i] > limits.range[1];
-                outside.then(|| (i, q[i] * self.unit, limits.range.map(|v| v * self.unit)))
+                outside.then(|| (i, q[i] * self.units[i], limits.range.map(|v| v * self.units[i])))
             })
             .collect()
     }
 
     /// Coordinates as a user reads them, SI.
     pub fn values(&self, configuration: &Configuration, load: f64) -> Vec<f64> {
-        self.coordinates(configuration, load)[..self.laws.len()].iter().map(|q| q * self.unit).collect()
+        self.coordinates(configuration, load)[..self.laws.len()]
+            .iter()
+            .zip(self.units)
+            .map(|(q, unit)| q * unit)
+            .collect()
     }
 }
 

@@ -30,13 +30,12 @@ impl Equilibrium {
             let wrench = scale.wrench_out(&wrench);
             // Hᵀ W = effort - k (q - rest): the effort is what a drive must supply, or the load that was given.
             let held = joint.coordinates.push_back(&configuration, self.load);
-            let per_effort = scale.moment() / joint.coordinates.unit;
             let efforts = (0..joint.coordinates.joint.freedoms())
                 .map(|i| {
                     let h = joint.coordinates.joint.subspace(&configuration, i);
                     (base.rotation * h.angular).dot(&wrench.moment)
                         + (base.rotation * h.linear).dot(&wrench.force)
-                        + held[i] * per_effort
+                        + held[i] * scale.moment() / joint.coordinates.units[i]
                 })
                 .collect();
             joints.push(JointSolution {
@@ -82,6 +81,11 @@ impl Equilibrium {
             bodies,
             joints,
             springs,
+            couplings: Vec::new(),
+            cables: Vec::new(),
+            tangents: Vec::new(),
+            sensitivities: None,
+            found: Vec::new(),
             energy,
             stable: None,
             unstable_directions: None,

@@ -16,7 +16,7 @@ pub(crate) struct PoseSlot {
     pub unknown: usize,
 }
 
-/// Where joint coordinates lie: four numbers of the state, `count` unknowns.
+/// Where joint coordinates lie: seven numbers of the state, `count` unknowns.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CoordinateSlot {
     pub state: usize,
@@ -87,7 +87,7 @@ impl Counter {
 
     fn coordinates(&mut self, coordinates: &Coordinates) -> CoordinateSlot {
         let count = coordinates.unknowns();
-        let (state, unknown) = self.take(4, count);
+        let (state, unknown) = self.take(7, count);
         CoordinateSlot { state, unknown, count }
     }
 

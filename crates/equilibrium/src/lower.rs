@@ -12,7 +12,7 @@ use flexura_mechanics::joint::Kinematics;
 use flexura_mechanics::load::PointLoad;
 use flexura_mechanics::spring::LinearSpring;
 use flexura_model::{
-    Attachment, BeamId, BodyRef, End, JointKind, JointLaw, LoadFrame, LoadTarget, Model, SpringLaw,
+    Attachment, BeamId, End, JointKind, JointLaw, LoadFrame, LoadTarget, Model, Mount, SpringLaw,
 };
 use flexura_spatial::{Pose, Twist, Vector3, Wrench};
 
@@ -188,10 +188,11 @@ pub(crate) fn point_load(
     }
 }
 
-fn node_of(body: BodyRef) -> Option<usize> {
+fn node_of(body: Mount) -> Option<usize> {
     match body {
-        BodyRef::Ground => None,
-        BodyRef::Body(id) => Some(id.0),
+        Mount::Ground => None,
+        Mount::Body(id) => Some(id.0),
+        Mount::Beam(_) => todo!(),
     }
 }
 
@@ -215,7 +216,7 @@ fn rest_start(model: &Model, lowered: &Lowered, beam: usize) -> Result<Pose, Pro
     let description = &model.beams[beam];
     let placed = |end: &End| {
         let frame = lowered.scale.pose_in(&end.placement.unwrap_or(Pose::identity()));
-        lowered.initial(node_of(end.body)) * frame
+        lowered.initial(node_of(end.mount)) * frame
     };
     match (&description.start, &description.end) {
         (Some(start), _) => Ok(placed(start)),
@@ -239,7 +240,7 @@ fn hubs_of(model: &Model, beam: usize, length: f64) -> Vec<f64> {
     }
     for spring in &model.springs {
         for end in [&spring.from, &spring.to] {
-            if let Attachment::Beam(point) = end
+            if let Mount::Beam(point) = end.mount
                 && point.beam.0 == beam
             {
                 hubs.push(point.at.arc_length(length));
@@ -346,7 +347,7 @@ fn point_loads(model: &Model, scale: &Scale, beam: usize, length: f64) -> Vec<Ju
 
 /// The hold of a beam's end at `s`, with the mismatch that is preload.
 fn held(lowered: &mut Lowered, end: &End, beam: usize, s: f64, path: &str) -> Hold {
-    let node = node_of(end.body);
+    let node = node_of(end.mount);
     let rest = lowered.rest_pose(beam, s);
     // An end without a placement attaches where the stress-free beam is; for the end that the beam was laid
     // out from, that is the body's origin.
@@ -395,7 +396,7 @@ fn hold_spin(lowered: &mut Lowered, span: &mut Span, path: &str) {
 
 fn lower_joint(_model: &Model, lowered: &mut Lowered, joint: &flexura_model::Joint) {
     let parent =
-        Carrier { node: node_of(joint.parent.body), frame: lowered.scale.pose_in(&joint.parent.pose) };
+        Carrier { node: node_of(joint.parent.mount), frame: lowered.scale.pose_in(&joint.parent.pose) };
     let fixed = lowered.carrier_pose(&parent);
     let child_node = node_of(joint.child);
     let frame = match &joint.child_pose {
@@ -420,16 +421,16 @@ fn lower_joint(_model: &Model, lowered: &mut Lowered, joint: &flexura_model::Joi
 fn lower_spring(model: &Model, lowered: &mut Lowered, index: usize) -> Result<(), ProblemError> {
     let spring = &model.springs[index];
     let scale = lowered.scale;
-    let place = |attachment: &Attachment| match attachment {
-        Attachment::Body { body, point } => (node_of(*body), point / scale.length),
-        Attachment::Beam(point) => {
+    let place = |attachment: &Attachment| match attachment.mount {
+        mount @ (Mount::Ground | Mount::Body(_)) => (node_of(mount), attachment.point / scale.length),
+        Mount::Beam(point) => {
             let length = lowered.beams[point.beam.0].length;
             let s = point.at.arc_length(length);
             let node = lowered.nodes.iter().position(|n| {
                 matches!(n.origin, NodeOrigin::Hub { beam, s: hub }
                     if beam == point.beam.0 && (hub - s).abs() < 1e-12 * length)
             });
-            (node, Vector3::zeros())
+            (node, attachment.point / scale.length)
         }
     };
     let ends = [place(&spring.from), place(&spring.to)];

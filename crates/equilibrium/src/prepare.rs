@@ -6,6 +6,7 @@ use crate::lower;
 use crate::mesh::{Level, SpanMesh};
 use crate::shooting::{Plain, SegmentEnd, carry_plain, jump};
 use crate::system::{Counts, Equilibrium, write_pose};
+use flexura_mechanics::joint::MAX_CONFIGURATION;
 use flexura_nonlinear::{BLOCK, Chain};
 use flexura_spatial::Vector3;
 
@@ -44,14 +45,13 @@ impl Equilibrium {
             write_pose(&mut self.x, slot.state, &node.initial);
         }
         for (span, slots) in self.lowered.spans.iter().zip(&self.layout.spans) {
-            self.x[slots.start.state..slots.start.state + 4].copy_from_slice(&span.start.coordinates.initial);
+            copy(&mut self.x, slots.start.state, &span.start.coordinates.initial, 0, MAX_CONFIGURATION);
             if let Some(end) = &span.end {
-                self.x[slots.end.state..slots.end.state + 4].copy_from_slice(&end.coordinates.initial);
+                copy(&mut self.x, slots.end.state, &end.coordinates.initial, 0, MAX_CONFIGURATION);
             }
         }
         for (joint, slots) in self.lowered.joints.iter().zip(&self.layout.joints) {
-            let at = slots.coordinates.state;
-            self.x[at..at + 4].copy_from_slice(&joint.coordinates.initial);
+            copy(&mut self.x, slots.coordinates.state, &joint.coordinates.initial, 0, MAX_CONFIGURATION);
         }
         for i in 0..self.lowered.spans.len() {
             let beam = self.lowered.spans[i].beam;
@@ -212,15 +212,15 @@ impl Equilibrium {
             self.x[to.state..to.state + 7].copy_from_slice(&old.x[from.state..from.state + 7]);
         }
         for (to, from) in self.layout.joints.iter().zip(&old.layout.joints) {
-            copy(&mut self.x, to.coordinates.state, &old.x, from.coordinates.state, 4);
+            copy(&mut self.x, to.coordinates.state, &old.x, from.coordinates.state, MAX_CONFIGURATION);
             copy(&mut self.x, to.wrench.state, &old.x, from.wrench.state, 6);
         }
         for i in 0..self.layout.spans.len() {
             let (to, from) = (&self.layout.spans[i], &old.layout.spans[i]);
-            copy(&mut self.x, to.start.state, &old.x, from.start.state, 4);
+            copy(&mut self.x, to.start.state, &old.x, from.start.state, MAX_CONFIGURATION);
             copy(&mut self.x, to.wrench.state, &old.x, from.wrench.state, 6);
             if self.lowered.spans[i].end.is_some() {
-                copy(&mut self.x, to.end.state, &old.x, from.end.state, 4);
+                copy(&mut self.x, to.end.state, &old.x, from.end.state, MAX_CONFIGURATION);
             }
             for k in 0..to.inner.len() {
                 let state = old.state_at(i, self.meshes[i].start_of(k + 1));

@@ -305,7 +305,7 @@ impl System for Equilibrium {
             .map(|(c, slot)| (slot.state, c.driven(&self.configuration(slot), fraction)))
             .collect();
         for (at, configuration) in driven {
-            self.x[at..at + 4].copy_from_slice(&configuration);
+            self.x[at..at + configuration.len()].copy_from_slice(&configuration);
         }
     }
 
@@ -366,7 +366,7 @@ impl System for Equilibrium {
             if slot.count > 0 {
                 let from: Configuration = std::array::from_fn(|i| x[slot.state + i]);
                 let to = coordinates.moved(&from, &step[slot.unknown..slot.unknown + slot.count]);
-                x[slot.state..slot.state + 4].copy_from_slice(&to);
+                x[slot.state..slot.state + to.len()].copy_from_slice(&to);
             }
         }
         for (state, unknown, count) in self.number_slots() {

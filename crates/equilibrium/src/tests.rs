@@ -36,13 +36,13 @@ fn beam(name: &str, start: Option<End>, end: Option<End>) -> Beam {
     }
 }
 
-fn end(body: BodyRef, placement: Option<Pose>, kind: JointKind, stiffness: f64) -> End {
+fn end(body: Mount, placement: Option<Pose>, kind: JointKind, stiffness: f64) -> End {
     let mut hold = JointLaw::free(kind, Vector3::new(0.6, 0.0, 0.8));
     for c in &mut hold.coordinates {
         c.stiffness = stiffness;
         c.rest = 0.3;
     }
-    End { body, placement, hold }
+    End { mount: body, placement, hold }
 }
 
 fn body(name: &str, position: [f64; 3], turn: [f64; 3]) -> Body {
@@ -67,8 +67,8 @@ fn everything() -> Model {
     m.bodies.push(body("b", [0.3, 1.5, -0.4], [1.0, 0.3, 0.0]));
     m.bodies.push(body("c", [-0.3, 1.1, 0.4], [0.0, 0.3, 0.5]));
     m.bodies.push(body("d", [0.6, -0.2, 0.9], [0.4, 0.0, -0.5]));
-    let [a, b, c, d] = [0, 1, 2, 3].map(|i| BodyRef::Body(BodyId(i)));
-    let ground = BodyRef::Ground;
+    let [a, b, c, d] = [0, 1, 2, 3].map(|i| Mount::Body(BodyId(i)));
+    let ground = Mount::Ground;
     let placed = Pose::new(exp(&Vector3::new(0.0, 0.5, 0.2)), Vector3::new(0.1, 0.2, -0.1));
     let mut first = beam(
         "first",
@@ -95,7 +95,7 @@ fn everything() -> Model {
             c.drive = drive;
         }
         let pose = Pose::new(exp(&Vector3::new(0.3, 0.0, -0.2)), Vector3::new(0.2, 0.0, 0.1));
-        Joint { name: name.into(), parent: Frame { body, pose }, child, child_pose: None, law }
+        Joint { name: name.into(), parent: Frame { mount: body, pose }, child, child_pose: None, law }
     };
     let loaded = Drive::Free { effort: 0.3 };
     m.joints.push(joint("ball", ground, a, JointKind::Spherical, loaded, 0.5));
@@ -106,14 +106,14 @@ fn everything() -> Model {
     let on = |beam: usize, at: f64| BeamPoint { beam: BeamId(beam), at: At::Fraction(at) };
     m.springs.push(Spring {
         name: "s1".into(),
-        from: Attachment::Beam(on(0, 0.4)),
-        to: Attachment::Body { body: b, point: Vector3::new(0.2, 0.1, 0.0) },
+        from: Attachment::on_beam(on(0, 0.4)),
+        to: Attachment { mount: b, point: Vector3::new(0.2, 0.1, 0.0) },
         law: SpringLaw::Linear { stiffness: 1.5, rest_length: Some(0.7) },
     });
     m.springs.push(Spring {
         name: "s2".into(),
-        from: Attachment::Body { body: BodyRef::Ground, point: Vector3::new(3.0, 0.0, 1.0) },
-        to: Attachment::Beam(on(2, 1.0)),
+        from: Attachment { mount: Mount::Ground, point: Vector3::new(3.0, 0.0, 1.0) },
+        to: Attachment::on_beam(on(2, 1.0)),
         law: SpringLaw::Linear { stiffness: 0.8, rest_length: None },
     });
     let load = |name: &str, target, frame| Load {

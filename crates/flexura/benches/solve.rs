@@ -41,7 +41,7 @@ fn cantilever(shape: Shape, curve: Curve, theory: BeamTheory, start: Pose, force
         curve,
         frame: SectionFrame::Natural,
         theory,
-        start: Some(End { body: BodyRef::Ground, placement: Some(start), hold: JointLaw::weld() }),
+        start: Some(End { mount: Mount::Ground, placement: Some(start), hold: JointLaw::weld() }),
         end: None,
         distributed: Vec::new(),
     });

@@ -57,7 +57,7 @@
 //!     curve: Curve::Straight { length: 1.0 },
 //!     frame: SectionFrame::Natural,
 //!     theory: BeamTheory { shear: false, extension: false },
-//!     start: Some(End { body: BodyRef::Ground, placement: None, hold: JointLaw::weld() }),
+//!     start: Some(End { mount: Mount::Ground, placement: None, hold: JointLaw::weld() }),
 //!     end: None,
 //!     distributed: Vec::new(),
 //! });

@@ -1,6 +1,6 @@
 //! Beams: rest shape, theory, ends and distributed loads.
 
-use crate::{BodyRef, JointLaw, MaterialId, Profile, SectionId};
+use crate::{JointLaw, MaterialId, Mount, Profile, SectionId};
 use flexura_expression::Function;
 use flexura_spatial::{Pose, Vector3};
 
@@ -42,12 +42,12 @@ impl Default for BeamTheory {
     }
 }
 
-/// How a beam's end is held on a body.
+/// How a beam's end is held.
 #[derive(Clone, Debug)]
 pub struct End {
-    /// The body (or the ground) that holds it.
-    pub body: BodyRef,
-    /// X of the attachment frame in the body. None: a start sits at the body's origin in the body's axes;
+    /// The ground, the body or the other beam that holds it.
+    pub mount: Mount,
+    /// X of the attachment frame in what holds it. None: a start sits at the body's origin in the body's axes;
     /// an end attaches stress-free where the rest beam ends.
     pub placement: Option<Pose>,
     /// Clamp = weld, pin = spherical, or any other joint; the beam's end frame is the moving frame.

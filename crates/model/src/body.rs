@@ -1,23 +1,25 @@
 //! Rigid bodies and places on them.
 
-use crate::BodyId;
+use crate::{BeamPoint, BodyId};
 use flexura_spatial::{Matrix3, Pose, Vector3};
 
-/// The ground or a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum BodyRef {
+/// What can carry a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mount {
     /// The fixed world, its frame the global frame.
     Ground,
     /// A rigid body.
     Body(BodyId),
+    /// The section of a beam at a place along it; its frame sits on the axis, with the axes e1, e2, e3.
+    Beam(BeamPoint),
 }
 
-/// A frame fixed on a body or on the ground.
+/// A frame fixed on a body, on the ground or on the section of a beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// What carries it.
-    pub body: BodyRef,
-    /// Its pose in the body's frame.
+    pub mount: Mount,
+    /// Its pose in the frame of what carries it.
     pub pose: Pose,
 }
 

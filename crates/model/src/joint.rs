@@ -1,6 +1,6 @@
 //! Joints: which motion they leave free, and what drives, loads or springs it.
 
-use crate::{BodyRef, Frame};
+use crate::{Frame, Mount};
 use flexura_spatial::{Pose, Vector3};
 
 /// A joint between a parent (carries the fixed frame F) and a child (carries the moving frame M).
@@ -11,7 +11,7 @@ pub struct Joint {
     /// F on its body.
     pub parent: Frame,
     /// What carries M.
-    pub child: BodyRef,
+    pub child: Mount,
     /// X of M in the child. None: M is where F is in the initial poses, so that the joint starts at zero.
     pub child_pose: Option<Pose>,
     /// Kind, axis and coordinates.
@@ -23,8 +23,11 @@ pub struct Joint {
 pub struct JointLaw {
     /// Which motions are left.
     pub kind: JointKind,
-    /// Unit axis in F's axes; unused by weld and spherical.
+    /// Unit axis in F's axes; unused by weld, spherical and free. Of a planar joint it is the plane's normal.
     pub axis: Vector3<f64>,
+    /// A second unit axis: of a universal joint the one that turns with M (in F's axes where M coincides with F);
+    /// of a planar joint the direction of x, at right angles to the normal. Unused by the others.
+    pub second_axis: Vector3<f64>,
     /// One per coordinate, in the kind's order.
     pub coordinates: Vec<CoordinateLaw>,
 }
@@ -32,13 +35,29 @@ pub struct JointLaw {
 impl JointLaw {
     /// A law of the given kind whose coordinates are all free and unloaded.
     pub fn free(kind: JointKind, axis: Vector3<f64>) -> Self {
-        Self { kind, axis, coordinates: vec![CoordinateLaw::default(); kind.freedoms()] }
+        let second_axis = across(&axis);
+        Self { kind, axis, second_axis, coordinates: vec![CoordinateLaw::default(); kind.freedoms()] }
     }
 
     /// No motion at all: a clamp.
     pub fn weld() -> Self {
         Self::free(JointKind::Weld, Vector3::x())
     }
+}
+
+/// The first of x, y, z that is not along `axis`, made to be at right angles to it.
+pub fn across(axis: &Vector3<f64>) -> Vector3<f64> {
+    let start = if axis.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
+    (start - axis * axis.dot(&start)).normalize()
+}
+
+/// Is a coordinate an angle or a length?
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoordinateKind {
+    /// rad; its effort is a moment.
+    Angle,
+    /// m; its effort is a force.
+    Length,
 }
 
 /// The kinds of joints.
@@ -50,8 +69,16 @@ pub enum JointKind {
     Revolute,
     /// Sliding along the axis; one length.
     Prismatic,
+    /// Turning about the axis and sliding along it; an angle and a length.
+    Cylindrical,
+    /// Turning about the axis, then about the second axis, which the first turning carries along; two angles.
+    Universal,
     /// Turning about a point; coordinates are the rotation vector from F to M.
     Spherical,
+    /// Sliding in the plane across the axis and turning about it: x along the second axis, y = axis × x, angle.
+    Planar,
+    /// No constraint; the position of M's origin in F and the rotation vector from F to M.
+    Free,
 }
 
 impl JointKind {
@@ -60,7 +87,38 @@ impl JointKind {
         match self {
             JointKind::Weld => 0,
             JointKind::Revolute | JointKind::Prismatic => 1,
-            JointKind::Spherical => 3,
+            JointKind::Cylindrical | JointKind::Universal => 2,
+            JointKind::Spherical | JointKind::Planar => 3,
+            JointKind::Free => 6,
+        }
+    }
+
+    /// What each coordinate is, in order.
+    pub fn coordinate_kinds(self) -> &'static [CoordinateKind] {
+        use CoordinateKind::{Angle, Length};
+        match self {
+            JointKind::Weld => &[],
+            JointKind::Revolute => &[Angle],
+            JointKind::Prismatic => &[Length],
+            JointKind::Cylindrical => &[Angle, Length],
+            JointKind::Universal => &[Angle, Angle],
+            JointKind::Spherical => &[Angle, Angle, Angle],
+            JointKind::Planar => &[Length, Length, Angle],
+            JointKind::Free => &[Length, Length, Length, Angle, Angle, Angle],
+        }
+    }
+
+    /// What each coordinate is called, in order.
+    pub fn coordinate_names(self) -> &'static [&'static str] {
+        match self {
+            JointKind::Weld => &[],
+            JointKind::Revolute => &["angle"],
+            JointKind::Prismatic => &["position"],
+            JointKind::Cylindrical => &["angle", "position"],
+            JointKind::Universal => &["first", "second"],
+            JointKind::Spherical => &["x", "y", "z"],
+            JointKind::Planar => &["x", "y", "angle"],
+            JointKind::Free => &["x", "y", "z", "rx", "ry", "rz"],
         }
     }
 }
@@ -97,6 +155,29 @@ impl Default for Drive {
     fn default() -> Self {
         Drive::Free { effort: 0.0 }
     }
+}
+
+/// A linear relation between joint coordinates, as gears, racks and screws make: Σ factor q = offset. It is kept
+/// by efforts factor × λ on the coordinates, which do no work.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupling {
+    /// Its name, unique among couplings.
+    pub name: String,
+    /// The coordinates and their factors; at least two, all different, none driven.
+    pub terms: Vec<CouplingTerm>,
+    /// What the sum is held at, in the unit of factor times coordinate.
+    pub offset: f64,
+}
+
+/// One coordinate of a coupling.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CouplingTerm {
+    /// The joint.
+    pub joint: crate::JointId,
+    /// Number of the coordinate in the joint.
+    pub coordinate: usize,
+    /// What it is multiplied with.
+    pub factor: f64,
 }
 
 /// The range of a coordinate.

@@ -7,6 +7,8 @@
 
 mod beam;
 mod body;
+mod cable;
+mod inverse;
 mod joint;
 mod load;
 mod material;
@@ -15,8 +17,12 @@ mod profile;
 mod validate;
 
 pub use beam::{Beam, BeamTheory, Curve, Distributed, End, LoadAxes, SectionFrame};
-pub use body::{Body, BodyRef, Frame};
-pub use joint::{CoordinateLaw, Drive, Joint, JointKind, JointLaw, Limits};
+pub use body::{Body, Frame, Mount};
+pub use cable::{Cable, CableLaw, Guide};
+pub use inverse::{Target, Unknown};
+pub use joint::{
+    CoordinateKind, CoordinateLaw, Coupling, CouplingTerm, Drive, Joint, JointKind, JointLaw, Limits, across,
+};
 pub use load::{Attachment, BeamPoint, Load, LoadFrame, LoadTarget, PointMass, Spring, SpringLaw};
 pub use material::{Material, Section, Shape};
 pub use output::{Output, Probe, ProbeTarget, Quantity};
@@ -59,6 +65,8 @@ ids! {
     JointId => joints: Joint,
     /// Position of a spring in [`Model::springs`].
     SpringId => springs: Spring,
+    /// Position of a cable in [`Model::cables`].
+    CableId => cables: Cable,
     /// Position of a load in [`Model::loads`].
     LoadId => loads: Load,
 }
@@ -93,12 +101,20 @@ pub struct Model {
     pub bodies: Vec<Body>,
     /// Joints between bodies.
     pub joints: Vec<Joint>,
+    /// Linear relations between joint coordinates.
+    pub couplings: Vec<Coupling>,
     /// Springs between two points.
     pub springs: Vec<Spring>,
+    /// Cables.
+    pub cables: Vec<Cable>,
     /// Lumped masses on beams.
     pub masses: Vec<PointMass>,
     /// Point forces and moments.
     pub loads: Vec<Load>,
     /// What the user wants to read off.
     pub outputs: Vec<Output>,
+    /// Parameters to be found, as many as there are targets.
+    pub unknowns: Vec<Unknown>,
+    /// Results with wanted values.
+    pub targets: Vec<Target>,
 }

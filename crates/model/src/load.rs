@@ -1,6 +1,6 @@
 //! Point loads, lumped masses and springs.
 
-use crate::{At, BeamId, BodyRef};
+use crate::{At, BeamId, Mount};
 use flexura_spatial::Vector3;
 
 /// A place on a beam.
@@ -63,16 +63,18 @@ pub struct PointMass {
 
 /// A point that a spring holds on to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Attachment {
-    /// A point of a body or of the ground, in its frame.
-    Body {
-        /// The body.
-        body: BodyRef,
-        /// The point, m.
-        point: Vector3<f64>,
-    },
+pub struct Attachment {
+    /// What carries the point.
+    pub mount: Mount,
+    /// The point in the frame of what carries it, m; on a beam (0, y, z) lies in the section.
+    pub point: Vector3<f64>,
+}
+
+impl Attachment {
     /// A point of a beam's axis.
-    Beam(BeamPoint),
+    pub fn on_beam(point: BeamPoint) -> Self {
+        Self { mount: Mount::Beam(point), point: Vector3::zeros() }
+    }
 }
 
 /// A spring between two points.

@@ -1,6 +1,6 @@
 //! What the user wants to read off a result.
 
-use crate::{At, BeamId, BodyId, JointId, SpringId};
+use crate::{At, BeamId, BodyId, CableId, JointId, SpringId};
 use flexura_expression::Formula;
 
 /// A named output.
@@ -23,7 +23,8 @@ pub struct Probe {
     pub target: ProbeTarget,
     /// Which quantity.
     pub quantity: Quantity,
-    /// Which component (0, 1, 2) of a vector; 0 for a number.
+    /// Which component of a vector, 0 for a number; of a 6 x 6 matrix it is 6 row + column, with the order
+    /// (x, y, z, rx, ry, rz) of motions and (fx, fy, fz, mx, my, mz) of loads.
     pub component: usize,
 }
 
@@ -38,6 +39,8 @@ pub enum ProbeTarget {
     Joint(JointId),
     /// A spring.
     Spring(SpringId),
+    /// A cable.
+    Cable(CableId),
     /// The whole mechanism.
     Model,
 }
@@ -67,10 +70,37 @@ pub enum Quantity {
     Coordinate,
     /// Effort on a joint coordinate; component is its number.
     Effort,
-    /// Length of a spring.
+    /// Length of a spring or cable.
     Length,
-    /// Tension of a spring.
+    /// Tension of a spring or cable.
     Tension,
+    /// Global position less that in the undeformed mechanism (beam, body).
+    Displacement,
+    /// Rotation vector of the turning since the undeformed mechanism (beam, body), rad.
+    Turning,
+    /// Of the finite screw from the undeformed pose to the present one (body): unit vector along its axis.
+    ScrewAxis,
+    /// The point of the finite screw's axis nearest to the body's present origin, m.
+    ScrewPoint,
+    /// Travel along the finite screw's axis per turning, m/rad.
+    ScrewPitch,
+    /// Turning about the finite screw's axis, rad.
+    ScrewAngle,
+    /// Of the instantaneous screw as all loads and drives grow in proportion (body): unit vector along its axis.
+    MotionAxis,
+    /// The point of the instantaneous screw's axis nearest to the body's present origin: in a planar motion
+    /// the instantaneous centre of rotation, m.
+    MotionPoint,
+    /// Travel along the instantaneous screw's axis per turning, m/rad.
+    MotionPitch,
+    /// Tangent compliance (beam, body): small motion of the origin (m, rad) per small dead load there (N, N·m),
+    /// global axes.
+    Compliance,
+    /// Inverse of the compliance: load per motion with the other five motions blocked.
+    Stiffness,
+    /// The point at which the coupling block of the compliance is symmetric; in the plane, where a force
+    /// turns nothing and a moment shifts nothing (beam, body), m.
+    CenterOfCompliance,
     /// Strain energy of the mechanism.
     Energy,
 }

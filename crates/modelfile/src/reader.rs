@@ -4,7 +4,7 @@ use crate::context::{Context, Read, Reported};
 use crate::format::{Key, Named, Need, Shape, Table};
 use crate::tree::{Entry, Node, Value};
 use flexura_expression::{Dimension, Function, Kind, Quantity, nearest};
-use flexura_model::{At, BodyId, BodyRef, Profile};
+use flexura_model::{At, BodyId, Mount, Profile};
 use flexura_spatial::Vector3;
 use std::ops::Range;
 
@@ -372,7 +372,7 @@ impl<'c, 'a> Reader<'c, 'a> {
         Err(self.context.wrong_with_hint(&node.span, path, message, hint))
     }
 
-    pub(crate) fn body(&self, name: &str) -> Read<Option<BodyRef>> {
+    pub(crate) fn body(&self, name: &str) -> Read<Option<Mount>> {
         let Some((entry, key)) = self.entry(name) else { return Ok(None) };
         match &entry.node.value {
             Value::Text(text) => self.body_in(&entry.node, &self.key_path(name), text).map(Some),
@@ -380,11 +380,11 @@ impl<'c, 'a> Reader<'c, 'a> {
         }
     }
 
-    pub(crate) fn body_in(&self, node: &Node, path: &str, text: &str) -> Read<BodyRef> {
+    pub(crate) fn body_in(&self, node: &Node, path: &str, text: &str) -> Read<Mount> {
         if text == "ground" {
-            return Ok(BodyRef::Ground);
+            return Ok(Mount::Ground);
         }
-        self.resolve(node, path, Named::BodyOrGround, text).map(|position| BodyRef::Body(BodyId(position)))
+        self.resolve(node, path, Named::BodyOrGround, text).map(|position| Mount::Body(BodyId(position)))
     }
 
     /// A place along a beam: a plain number is a fraction.

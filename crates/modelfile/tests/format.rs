@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use flexura_model::{
-    At, Attachment, BodyRef, Curve, Drive, JointKind, Model, Profile, SectionFrame, Shape, SpringLaw,
+    At, Attachment, Curve, Drive, JointKind, Model, Mount, Profile, SectionFrame, Shape, SpringLaw,
 };
 use flexura_modelfile::{Document, reference_markdown, schema};
 use proptest::prelude::*;
@@ -173,7 +173,7 @@ fn every_table_arrives_in_the_model() {
     let straight = &model.beams[0];
     assert!(straight.theory.shear && !straight.theory.extension);
     let start = straight.start.as_ref().unwrap();
-    assert_eq!((start.body, start.hold.kind), (BodyRef::Ground, JointKind::Weld));
+    assert_eq!((start.mount, start.hold.kind), (Mount::Ground, JointKind::Weld));
     let (roll, pitch, yaw) = start.placement.unwrap().rotation.euler_angles();
     close(roll, 10f64.to_radians());
     close(pitch, 20f64.to_radians());
@@ -205,7 +205,9 @@ fn every_table_arrives_in_the_model() {
     assert_eq!(way.law.coordinates[0].drive, Drive::Free { effort: 3.0 });
     assert_eq!(way.law.coordinates[0].limits.unwrap().stiffness, Some(1e4));
     assert_eq!(model.joints[1].law.coordinates.len(), 3);
-    assert!(matches!(model.springs[0].to, Attachment::Beam(point) if point.at == At::Fraction(0.5)));
+    assert!(
+        matches!(model.springs[0].to, Attachment { mount: Mount::Beam(point), .. } if point.at == At::Fraction(0.5))
+    );
     assert!(matches!(model.springs[0].law, SpringLaw::Linear { rest_length: None, .. }));
     assert_eq!(model.masses[0].point.at, At::Length(0.0762));
     close(model.loads[0].force.x, -3.0);

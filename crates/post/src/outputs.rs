@@ -103,6 +103,15 @@ impl Reader<'_> {
                 });
                 value.ok_or_else(|| self.no_such_quantity("a spring"))
             }
+            ProbeTarget::Cable(cable) => {
+                let result = self.solution.cables.get(cable.0);
+                let value = result.and_then(|cable| match probe.quantity {
+                    Quantity::Length => Some(cable.length),
+                    Quantity::Tension => Some(cable.tension),
+                    _ => None,
+                });
+                value.ok_or_else(|| self.no_such_quantity("a cable"))
+            }
             ProbeTarget::Model => match probe.quantity {
                 Quantity::Energy => Ok(self.solution.energy),
                 _ => Err(self.no_such_quantity("the whole mechanism")),

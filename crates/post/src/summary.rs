@@ -1,7 +1,7 @@
 //! What a person reads after a solve, as plain data; how it is set on the screen is the command's matter.
 
 use crate::{BeamPeaks, Evaluation, OutputResult};
-use flexura_model::{JointKind, Model};
+use flexura_model::{CoordinateKind, Model};
 use flexura_solution::{Solution, Status};
 use flexura_spatial::{Vector3, log};
 
@@ -143,9 +143,9 @@ pub fn summarise(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
             .collect(),
         joints: joints
             .map(|(joint, result)| {
-                let units = coordinate_units(joint.law.kind);
+                let units = joint.law.kind.coordinate_kinds().iter().map(|kind| coordinate_units(*kind));
                 let values = result.coordinates.iter().zip(&result.efforts).zip(units);
-                let coordinate = |((value, effort), units): ((&f64, &f64), &(&'static str, &'static str))| {
+                let coordinate = |((value, effort), units): ((&f64, &f64), (&'static str, &'static str))| {
                     CoordinateSummary { value: *value, unit: units.0, effort: *effort, effort_unit: units.1 }
                 };
                 JointSummary {
@@ -182,14 +182,10 @@ fn scales(solution: &Solution) -> Scales {
     scales
 }
 
-/// Units of a joint's coordinates and of their efforts, in the kind's order.
-fn coordinate_units(kind: JointKind) -> &'static [(&'static str, &'static str)] {
-    const ANGLE: (&str, &str) = ("rad", "N*m");
-    const LENGTH: (&str, &str) = ("m", "N");
+/// Units of a coordinate and of its effort.
+fn coordinate_units(kind: CoordinateKind) -> (&'static str, &'static str) {
     match kind {
-        JointKind::Weld => &[],
-        JointKind::Revolute => &[ANGLE],
-        JointKind::Prismatic => &[LENGTH],
-        JointKind::Spherical => &[ANGLE, ANGLE, ANGLE],
+        CoordinateKind::Angle => ("rad", "N*m"),
+        CoordinateKind::Length => ("m", "N"),
     }
 }

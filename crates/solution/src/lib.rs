@@ -3,7 +3,8 @@
 //! Lists run parallel to the model's lists: `beams[i]` belongs to `model.beams[i]`. SI units, global axes
 //! unless said otherwise. `F` and `M` act, by the part beyond s, on the part before s.
 
-use flexura_spatial::{Pose, Vector3, Wrench};
+use flexura_model::ProbeTarget;
+use flexura_spatial::{Matrix6, Pose, Twist, Vector3, Wrench};
 
 /// How a study ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,6 +78,16 @@ pub struct Solution {
     pub joints: Vec<JointSolution>,
     /// One for each spring.
     pub springs: Vec<SpringSolution>,
+    /// One for each coupling: λ, so that its effort on a coordinate is factor × λ.
+    pub couplings: Vec<f64>,
+    /// One for each cable.
+    pub cables: Vec<CableSolution>,
+    /// Small motions and compliances of what an output or the caller asked for.
+    pub tangents: Vec<TangentSolution>,
+    /// Of every output by every parameter, if asked for.
+    pub sensitivities: Option<Sensitivities>,
+    /// The parameters that were solved for: position in the model's parameters, value (SI).
+    pub found: Vec<(usize, f64)>,
     /// Strain energy of beams and springs, J.
     pub energy: f64,
     /// Is it a stable equilibrium? None where that is not decided.
@@ -135,4 +146,40 @@ pub struct SpringSolution {
     pub length: f64,
     /// Tension, N.
     pub tension: f64,
+}
+
+/// A cable's state.
+#[derive(Clone, Debug)]
+pub struct CableSolution {
+    /// Its course, global, m; channels are sampled.
+    pub course: Vec<Vector3<f64>>,
+    /// Length from anchor to anchor, m.
+    pub length: f64,
+    /// Tension, N.
+    pub tension: f64,
+}
+
+/// How one body or station moves when the equilibrium is disturbed a little.
+#[derive(Clone, Copy, Debug)]
+pub struct TangentSolution {
+    /// Of what: a body or a place on a beam.
+    pub target: ProbeTarget,
+    /// Motion (x, y, z, rx, ry, rz) of its origin per dead load (fx, .. mz) there, global axes: m/N, rad/N, m/(N·m),
+    /// rad/(N·m). None where only the motion was asked for.
+    pub compliance: Option<Matrix6<f64>>,
+    /// Motion of its origin (m) and turning (rad) per unit of the load fraction, all loads and drives growing in
+    /// proportion.
+    pub motion: Twist,
+}
+
+/// Derivatives of outputs with respect to parameters.
+#[derive(Clone, Debug, Default)]
+pub struct Sensitivities {
+    /// Positions in the model's parameters.
+    pub parameters: Vec<usize>,
+    /// For each output of the model, for each of its components, for each of these parameters: d output / d
+    /// parameter, SI.
+    pub outputs: Vec<Vec<Vec<f64>>>,
+    /// For each body, for each of these parameters: motion of its origin and turning per unit.
+    pub bodies: Vec<Vec<Twist>>,
 }

@@ -2,8 +2,8 @@
 //! may end on another branch than the one that fine continuation from rest leads to.
 
 use flexura_model::{
-    At, Beam, BeamId, BeamPoint, BeamTheory, BodyRef, Curve, End, JointLaw, Load, LoadFrame, LoadId,
-    LoadTarget, Model, Section, SectionFrame, SectionId, Shape,
+    At, Beam, BeamId, BeamPoint, BeamTheory, Curve, End, JointLaw, Load, LoadFrame, LoadId, LoadTarget,
+    Model, Mount, Section, SectionFrame, SectionId, Shape,
 };
 use flexura_solution::Status;
 use flexura_spatial::Vector3;
@@ -32,7 +32,7 @@ fn cantilever() -> Model {
         curve: Curve::Straight { length: 1.0 },
         frame: SectionFrame::Natural,
         theory: BeamTheory { shear: false, extension: false },
-        start: Some(End { body: BodyRef::Ground, placement: None, hold: JointLaw::weld() }),
+        start: Some(End { mount: Mount::Ground, placement: None, hold: JointLaw::weld() }),
         end: None,
         distributed: Vec::new(),
     });

@@ -1,8 +1,8 @@
 //! Models in a few words.
 
 use flexura_model::{
-    At, Beam, BeamId, BeamPoint, BeamTheory, BodyRef, Curve, End, JointLaw, Load, LoadFrame, LoadTarget,
-    Model, Section, SectionFrame, SectionId, Shape,
+    At, Beam, BeamId, BeamPoint, BeamTheory, Curve, End, JointLaw, Load, LoadFrame, LoadTarget, Model, Mount,
+    Section, SectionFrame, SectionId, Shape,
 };
 use flexura_spatial::{Pose, Vector3};
 
@@ -73,7 +73,7 @@ pub fn cantilever(section: Section, curve: Curve, theory: BeamTheory, place: Pos
         curve,
         frame: SectionFrame::Natural,
         theory,
-        start: Some(clamped(BodyRef::Ground, Some(place))),
+        start: Some(clamped(Mount::Ground, Some(place))),
         end: None,
         distributed: Vec::new(),
     });
@@ -81,8 +81,8 @@ pub fn cantilever(section: Section, curve: Curve, theory: BeamTheory, place: Pos
 }
 
 /// A clamp on a body.
-pub fn clamped(body: BodyRef, placement: Option<Pose>) -> End {
-    End { body, placement, hold: JointLaw::weld() }
+pub fn clamped(body: Mount, placement: Option<Pose>) -> End {
+    End { mount: body, placement, hold: JointLaw::weld() }
 }
 
 /// Adds a force and a moment at the far end of the first beam.

@@ -4,18 +4,22 @@
 //! moves when a coordinate moves. The wrench W that the parent exerts on the child at M's origin then
 //! satisfies Hᵀ W = τ.
 
+mod cylindrical;
+mod free;
+mod planar;
 mod prismatic;
 mod revolute;
 mod spherical;
+mod universal;
 mod weld;
 
 use flexura_model::{JointKind, JointLaw};
 use flexura_spatial::{Pose, Twist, Vector3};
 
-/// Most numbers that the configuration of a joint takes (a quaternion).
-pub const MAX_CONFIGURATION: usize = 4;
+/// Most numbers that the configuration of a joint takes (a position and a quaternion).
+pub const MAX_CONFIGURATION: usize = 7;
 /// Most coordinates that a joint has.
-pub const MAX_FREEDOMS: usize = 3;
+pub const MAX_FREEDOMS: usize = 6;
 
 /// The configuration of a joint: coordinates, or a quaternion where coordinates would be singular.
 pub type Configuration = [f64; MAX_CONFIGURATION];
@@ -30,6 +34,11 @@ pub trait Kinematics {
 
     /// Column `i` of H: turning (rad per unit) and motion of M's origin (m per unit), in F's axes.
     fn subspace(&self, configuration: &Configuration, i: usize) -> Twist;
+
+    /// How column `i` of H changes along coordinate `j`, in F's axes.
+    fn subspace_change(&self, _configuration: &Configuration, _i: usize, _j: usize) -> Twist {
+        Twist { angular: Vector3::zeros(), linear: Vector3::zeros() }
+    }
 
     /// The configuration after the coordinates have moved by `step` along H.
     fn moved(&self, configuration: &Configuration, step: &[f64]) -> Configuration;
@@ -67,12 +76,13 @@ pub trait Kinematics {
 pub struct Joint {
     kind: JointKind,
     axis: Vector3<f64>,
+    second_axis: Vector3<f64>,
 }
 
 impl Joint {
-    /// The kinematics of a law; its axis must be of unit length.
+    /// The kinematics of a law; its axes must be of unit length.
     pub fn new(law: &JointLaw) -> Self {
-        Self { kind: law.kind, axis: law.axis }
+        Self { kind: law.kind, axis: law.axis, second_axis: law.second_axis }
     }
 
     /// Number of coordinates.
@@ -85,7 +95,11 @@ impl Joint {
             JointKind::Weld => f(&weld::Weld),
             JointKind::Revolute => f(&revolute::Revolute { axis: self.axis }),
             JointKind::Prismatic => f(&prismatic::Prismatic { axis: self.axis }),
+            JointKind::Cylindrical => f(&cylindrical::Cylindrical { axis: self.axis }),
+            JointKind::Universal => f(&universal::Universal { first: self.axis, second: self.second_axis }),
             JointKind::Spherical => f(&spherical::Spherical),
+            JointKind::Planar => f(&planar::Planar { normal: self.axis, x: self.second_axis }),
+            JointKind::Free => f(&free::Free),
         }
     }
 }
@@ -99,6 +113,9 @@ impl Kinematics for Joint {
     }
     fn subspace(&self, configuration: &Configuration, i: usize) -> Twist {
         self.with(|k| k.subspace(configuration, i))
+    }
+    fn subspace_change(&self, configuration: &Configuration, i: usize, j: usize) -> Twist {
+        self.with(|k| k.subspace_change(configuration, i, j))
     }
     fn moved(&self, configuration: &Configuration, step: &[f64]) -> Configuration {
         self.with(|k| k.moved(configuration, step))

@@ -9,7 +9,7 @@ pub(super) struct Prismatic {
 
 impl Kinematics for Prismatic {
     fn home(&self) -> Configuration {
-        [0.0; 4]
+        Configuration::default()
     }
     fn pose(&self, configuration: &Configuration) -> Pose {
         Pose::translation(self.axis * configuration[0])
@@ -18,18 +18,18 @@ impl Kinematics for Prismatic {
         Twist { angular: Vector3::zeros(), linear: self.axis }
     }
     fn moved(&self, configuration: &Configuration, step: &[f64]) -> Configuration {
-        [configuration[0] + step[0], 0.0, 0.0, 0.0]
+        [configuration[0] + step[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
     }
     fn step(&self, from: &Configuration, to: &Configuration) -> [f64; MAX_FREEDOMS] {
-        [to[0] - from[0], 0.0, 0.0]
+        [to[0] - from[0], 0.0, 0.0, 0.0, 0.0, 0.0]
     }
     fn coordinates(&self, configuration: &Configuration) -> [f64; MAX_FREEDOMS] {
-        [configuration[0], 0.0, 0.0]
+        [configuration[0], 0.0, 0.0, 0.0, 0.0, 0.0]
     }
     fn configuration(&self, coordinates: &[f64]) -> Configuration {
-        [coordinates[0], 0.0, 0.0, 0.0]
+        [coordinates[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
     }
     fn nearest(&self, pose: &Pose) -> Configuration {
-        [pose.position.dot(&self.axis), 0.0, 0.0, 0.0]
+        [pose.position.dot(&self.axis), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
     }
 }

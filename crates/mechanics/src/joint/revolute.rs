@@ -9,7 +9,7 @@ pub(super) struct Revolute {
 
 impl Kinematics for Revolute {
     fn home(&self) -> Configuration {
-        [0.0; 4]
+        Configuration::default()
     }
     fn pose(&self, configuration: &Configuration) -> Pose {
         Pose::new(exp(&(self.axis * configuration[0])), Vector3::zeros())
@@ -18,16 +18,16 @@ impl Kinematics for Revolute {
         Twist { angular: self.axis, linear: Vector3::zeros() }
     }
     fn moved(&self, configuration: &Configuration, step: &[f64]) -> Configuration {
-        [configuration[0] + step[0], 0.0, 0.0, 0.0]
+        [configuration[0] + step[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
     }
     fn step(&self, from: &Configuration, to: &Configuration) -> [f64; MAX_FREEDOMS] {
-        [to[0] - from[0], 0.0, 0.0]
+        [to[0] - from[0], 0.0, 0.0, 0.0, 0.0, 0.0]
     }
     fn coordinates(&self, configuration: &Configuration) -> [f64; MAX_FREEDOMS] {
-        [configuration[0], 0.0, 0.0]
+        [configuration[0], 0.0, 0.0, 0.0, 0.0, 0.0]
     }
     fn configuration(&self, coordinates: &[f64]) -> Configuration {
-        [coordinates[0], 0.0, 0.0, 0.0]
+        [coordinates[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
     }
     fn nearest(&self, pose: &Pose) -> Configuration {
         // The swing-twist decomposition: the part of the rotation about the axis.
@@ -35,6 +35,6 @@ impl Kinematics for Revolute {
         let along = Vector3::new(q.i, q.j, q.k).dot(&self.axis);
         let angle = 2.0 * along.atan2(q.w);
         let turn = std::f64::consts::TAU;
-        [angle - turn * (angle / turn).round(), 0.0, 0.0, 0.0]
+        [angle - turn * (angle / turn).round(), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
     }
 }

@@ -7,13 +7,13 @@ use flexura_spatial::{Pose, Quaternion, Twist, UnitQuaternion, Vector3, exp, lef
 pub(super) struct Spherical;
 
 fn rotation(configuration: &Configuration) -> UnitQuaternion<f64> {
-    let [w, x, y, z] = *configuration;
+    let [w, x, y, z, ..] = *configuration;
     UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
 }
 
 fn stored(rotation: &UnitQuaternion<f64>) -> Configuration {
     let q = rotation.quaternion();
-    [q.w, q.i, q.j, q.k]
+    [q.w, q.i, q.j, q.k, 0.0, 0.0, 0.0]
 }
 
 /// c(θ) and c'(θ)/θ, by their series where the closed forms cancel.
@@ -35,7 +35,7 @@ fn series(angle: f64) -> (f64, f64) {
 
 impl Kinematics for Spherical {
     fn home(&self) -> Configuration {
-        [1.0, 0.0, 0.0, 0.0]
+        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
     }
     fn pose(&self, configuration: &Configuration) -> Pose {
         Pose::new(rotation(configuration), Vector3::zeros())
@@ -50,11 +50,11 @@ impl Kinematics for Spherical {
     }
     fn step(&self, from: &Configuration, to: &Configuration) -> [f64; MAX_FREEDOMS] {
         let v = log(&(rotation(to) * rotation(from).inverse()));
-        [v.x, v.y, v.z]
+        [v.x, v.y, v.z, 0.0, 0.0, 0.0]
     }
     fn coordinates(&self, configuration: &Configuration) -> [f64; MAX_FREEDOMS] {
         let v = log(&rotation(configuration));
-        [v.x, v.y, v.z]
+        [v.x, v.y, v.z, 0.0, 0.0, 0.0]
     }
     fn configuration(&self, coordinates: &[f64]) -> Configuration {
         stored(&exp(&Vector3::new(coordinates[0], coordinates[1], coordinates[2])))
@@ -68,24 +68,24 @@ impl Kinematics for Spherical {
         slope: &[f64; MAX_FREEDOMS],
     ) -> ([f64; MAX_FREEDOMS], [[f64; MAX_FREEDOMS]; MAX_FREEDOMS]) {
         let v = log(&rotation(configuration));
-        let t = Vector3::from(*tau);
+        let t = Vector3::new(tau[0], tau[1], tau[2]);
         let (c, slope_of_c) = series(v.norm());
         let double = v.cross(&v.cross(&t));
         let value = t + v.cross(&t) * 0.5 + double * c;
         let to_v = left_jacobian_inverse(&v);
         let mut tangent = [[0.0; MAX_FREEDOMS]; MAX_FREEDOMS];
-        for j in 0..MAX_FREEDOMS {
+        for j in 0..3 {
             let dv: Vector3<f64> = to_v.column(j).into();
             let dt = Vector3::new(slope[0] * dv.x, slope[1] * dv.y, slope[2] * dv.z);
             let change = dt
                 + (dv.cross(&t) + v.cross(&dt)) * 0.5
                 + double * (slope_of_c * v.dot(&dv))
                 + (dv.cross(&v.cross(&t)) + v.cross(&dv.cross(&t)) + v.cross(&v.cross(&dt))) * c;
-            for i in 0..MAX_FREEDOMS {
+            for i in 0..3 {
                 tangent[i][j] = change[i];
             }
         }
-        (value.into(), tangent)
+        ([value.x, value.y, value.z, 0.0, 0.0, 0.0], tangent)
     }
     fn nearest(&self, pose: &Pose) -> Configuration {
         stored(&pose.rotation)

@@ -4,11 +4,11 @@ use super::*;
 use flexura_spatial::{Vector3, log};
 
 fn joint(kind: JointKind) -> Joint {
-    Joint { kind, axis: Vector3::new(2.0, -1.0, 2.0) / 3.0 }
+    Joint { kind, axis: Vector3::new(2.0, -1.0, 2.0) / 3.0, second_axis: Vector3::new(2.0, 2.0, -1.0) / 3.0 }
 }
 
 fn coordinates(kind: JointKind) -> Vec<f64> {
-    [0.4, -0.7, 0.2][..kind.freedoms()].to_vec()
+    [0.4, -0.7, 0.2, 0.5, 0.3, -0.6][..kind.freedoms()].to_vec()
 }
 
 fn subspace_is_the_derivative_of_the_pose(kind: JointKind) {
@@ -27,6 +27,25 @@ fn subspace_is_the_derivative_of_the_pose(kind: JointKind) {
         let column = joint.subspace(&at, i);
         assert!((turning - column.angular).norm() < 1e-8, "{kind:?}");
         assert!((shift - column.linear).norm() < 1e-8, "{kind:?}");
+    }
+}
+
+fn subspace_changes_as_it_says(kind: JointKind) {
+    let joint = joint(kind);
+    let at = joint.configuration(&coordinates(kind));
+    let h = 1e-5;
+    for i in 0..joint.freedoms() {
+        for j in 0..joint.freedoms() {
+            let column = |x: f64| {
+                let mut step = [0.0; MAX_FREEDOMS];
+                step[j] = x;
+                joint.subspace(&joint.moved(&at, &step), i)
+            };
+            let (plus, minus) = (column(h), column(-h));
+            let change = joint.subspace_change(&at, i, j);
+            assert!(((plus.angular - minus.angular) / (2.0 * h) - change.angular).norm() < 1e-8, "{kind:?}");
+            assert!(((plus.linear - minus.linear) / (2.0 * h) - change.linear).norm() < 1e-8, "{kind:?}");
+        }
     }
 }
 
@@ -49,7 +68,7 @@ fn coordinates_come_back(kind: JointKind) {
 fn generalised_force_is_the_slope_of_the_energy(kind: JointKind) {
     let joint = joint(kind);
     let at = joint.configuration(&coordinates(kind));
-    let (k, rest) = ([2.0, 0.7, 1.3], [0.1, -0.2, 0.5]);
+    let (k, rest) = ([2.0, 0.7, 1.3, 0.9, 1.7, 0.4], [0.1, -0.2, 0.5, 0.3, 0.2, -0.1]);
     let force_at = |c: &Configuration| {
         let q = joint.coordinates(c);
         let tau = std::array::from_fn(|i| -k[i] * (q[i] - rest[i]));
@@ -88,6 +107,8 @@ macro_rules! conformance {
             #[test]
             fn subspace_is_the_derivative_of_the_pose() { super::subspace_is_the_derivative_of_the_pose($kind) }
             #[test]
+            fn subspace_changes_as_it_says() { super::subspace_changes_as_it_says($kind) }
+            #[test]
             fn coordinates_come_back() { super::coordinates_come_back($kind) }
             #[test]
             fn generalised_force_is_the_slope_of_the_energy() {
@@ -103,5 +124,9 @@ conformance!(
     weld => JointKind::Weld,
     revolute => JointKind::Revolute,
     prismatic => JointKind::Prismatic,
-    spherical => JointKind::Spherical
+    cylindrical => JointKind::Cylindrical,
+    universal => JointKind::Universal,
+    spherical => JointKind::Spherical,
+    planar => JointKind::Planar,
+    free => JointKind::Free
 );

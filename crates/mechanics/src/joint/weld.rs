@@ -7,7 +7,7 @@ pub(super) struct Weld;
 
 impl Kinematics for Weld {
     fn home(&self) -> Configuration {
-        [0.0; 4]
+        Configuration::default()
     }
     fn pose(&self, _: &Configuration) -> Pose {
         Pose::identity()
@@ -25,9 +25,9 @@ impl Kinematics for Weld {
         [0.0; MAX_FREEDOMS]
     }
     fn configuration(&self, _: &[f64]) -> Configuration {
-        [0.0; 4]
+        Configuration::default()
     }
     fn nearest(&self, _: &Pose) -> Configuration {
-        [0.0; 4]
+        Configuration::default()
     }
 }

@@ -1,8 +1,8 @@
 //! Is the description sound? Everything that can be said without solving.
 
 use crate::{
-    At, Attachment, Beam, BeamId, BeamPoint, BodyRef, Curve, Drive, JointKind, JointLaw, LoadTarget, Model,
-    SectionFrame, Shape, SpringLaw,
+    At, Beam, BeamId, BeamPoint, Curve, Drive, JointKind, JointLaw, LoadTarget, Model, Mount, SectionFrame,
+    Shape, SpringLaw,
 };
 use flexura_spatial::{Pose, Vector3};
 
@@ -134,13 +134,13 @@ impl Model {
         }
         for joint in &self.joints {
             let path = format!("joint.{}", joint.name);
-            self.check_body(joint.parent.body, &format!("{path}.parent"), &mut issues);
-            self.check_body(joint.child, &format!("{path}.child"), &mut issues);
+            self.check_mount(joint.parent.mount, &format!("{path}.parent"), &mut issues);
+            self.check_mount(joint.child, &format!("{path}.child"), &mut issues);
             issues.pose(&format!("{path}.parent"), &joint.parent.pose);
             if let Some(pose) = &joint.child_pose {
                 issues.pose(&format!("{path}.child"), pose);
             }
-            if joint.parent.body == joint.child {
+            if joint.parent.mount == joint.child {
                 issues.add(format!("{path}.child"), "a joint must connect two different bodies");
             }
             check_law(&joint.law, &path, &mut issues);
@@ -231,7 +231,7 @@ impl Model {
         for (end, word) in [(&beam.start, "start"), (&beam.end, "end")] {
             let Some(end) = end else { continue };
             let path = format!("{path}.{word}");
-            self.check_body(end.body, &format!("{path}.body"), issues);
+            self.check_mount(end.mount, &path, issues);
             if let Some(pose) = &end.placement {
                 issues.pose(&path, pose);
             }
@@ -250,11 +250,15 @@ impl Model {
         }
     }
 
-    fn check_body(&self, body: BodyRef, path: &str, issues: &mut Issues) {
-        if let BodyRef::Body(id) = body
-            && id.0 >= self.bodies.len()
-        {
-            issues.add(path, "refers to a body that does not exist");
+    fn check_mount(&self, mount: Mount, path: &str, issues: &mut Issues) {
+        match mount {
+            Mount::Ground => {}
+            Mount::Body(id) => {
+                if id.0 >= self.bodies.len() {
+                    issues.add(format!("{path}.body"), "refers to a body that does not exist");
+                }
+            }
+            Mount::Beam(point) => self.check_at(&point, &format!("{path}.at"), issues),
         }
     }
 
@@ -291,13 +295,8 @@ impl Model {
         for spring in &self.springs {
             let path = format!("spring.{}", spring.name);
             for (attachment, word) in [(&spring.from, "from"), (&spring.to, "to")] {
-                match attachment {
-                    Attachment::Body { body, point } => {
-                        self.check_body(*body, &format!("{path}.{word}.body"), issues);
-                        issues.finite_vector(format!("{path}.{word}.at"), point);
-                    }
-                    Attachment::Beam(point) => self.check_at(point, &format!("{path}.{word}.at"), issues),
-                }
+                self.check_mount(attachment.mount, &format!("{path}.{word}"), issues);
+                issues.finite_vector(format!("{path}.{word}.at"), &attachment.point);
             }
             if spring.from == spring.to {
                 issues.add(format!("{path}.to"), "a spring must connect two different points");
@@ -317,7 +316,7 @@ impl Model {
             let path = format!("load.{}", load.name);
             match &load.target {
                 LoadTarget::Body { body, point } => {
-                    self.check_body(BodyRef::Body(*body), &format!("{path}.body"), issues);
+                    self.check_mount(Mount::Body(*body), &path, issues);
                     issues.finite_vector(format!("{path}.at"), point);
                 }
                 LoadTarget::Beam(point) => self.check_at(point, &format!("{path}.at"), issues),
@@ -343,9 +342,10 @@ impl Model {
                     ProbeTarget::Body(id) => id.0 < self.bodies.len(),
                     ProbeTarget::Joint(id) => id.0 < self.joints.len(),
                     ProbeTarget::Spring(id) => id.0 < self.springs.len(),
+                    ProbeTarget::Cable(id) => id.0 < self.cables.len(),
                     ProbeTarget::Model => true,
                 };
-                if !exists || probe.component > 2 {
+                if !exists || probe.component > 35 {
                     issues.add(path.clone(), "an output refers to something that does not exist");
                 }
             }
@@ -475,7 +475,7 @@ fn check_inertia(inertia: &nalgebra::Matrix3<f64>, path: &str, issues: &mut Issu
 }
 
 fn check_law(law: &JointLaw, path: &str, issues: &mut Issues) {
-    let turning = matches!(law.kind, JointKind::Revolute | JointKind::Prismatic);
+    let turning = !matches!(law.kind, JointKind::Weld | JointKind::Spherical | JointKind::Free);
     if turning && (!law.axis.norm().is_finite() || (law.axis.norm() - 1.0).abs() > 1e-9) {
         issues.add(format!("{path}.axis"), "the axis must be a unit vector");
     }

@@ -25,7 +25,7 @@ fn good() -> Model {
             curve: Curve::Straight { length: 0.1 },
             frame: SectionFrame::Natural,
             theory: BeamTheory::default(),
-            start: Some(End { body: BodyRef::Ground, placement: None, hold: JointLaw::weld() }),
+            start: Some(End { mount: Mount::Ground, placement: None, hold: JointLaw::weld() }),
             end: None,
             distributed: Vec::new(),
         }],
@@ -54,7 +54,7 @@ fn each_mistake_is_found_where_it_is() {
     assert_eq!(paths(|m| m.beams[0].material = None), ["beam.link"]);
     assert_eq!(paths(|m| m.beams[0].curve = Curve::Straight { length: 0.0 }), ["beam.link.length"]);
     assert_eq!(
-        paths(|m| m.beams[0].start.as_mut().unwrap().body = BodyRef::Body(BodyId(0))),
+        paths(|m| m.beams[0].start.as_mut().unwrap().mount = Mount::Body(BodyId(0))),
         ["beam.link.start.body"]
     );
     assert_eq!(paths(|m| m.beams.push(m.beams[0].clone())), ["beam.link"]);

@@ -56,7 +56,7 @@ fn end(reader: &Reader<'_, '_>, key: &str) -> Read<Option<End>> {
     let hold = law(&table);
     let placed = table.has("at") || table.has("rotation");
     let pose = pose?;
-    Ok(Some(End { body: body?, placement: placed.then_some(pose), hold: hold? }))
+    Ok(Some(End { mount: body?, placement: placed.then_some(pose), hold: hold? }))
 }
 
 fn distributed(reader: &Reader<'_, '_>) -> Read<Vec<Distributed>> {

@@ -5,7 +5,7 @@ use crate::format::Shape;
 use crate::reader::Reader;
 use crate::tree::Value;
 use flexura_expression::Dimension;
-use flexura_model::{Body, BodyRef, CoordinateLaw, Drive, Frame, Joint, JointKind, JointLaw, Limits};
+use flexura_model::{Body, CoordinateLaw, Drive, Frame, Joint, JointKind, JointLaw, Limits, Mount};
 use flexura_spatial::{Matrix3, Pose, Quaternion, UnitQuaternion, Vector3, exp};
 
 pub(super) fn body(reader: &Reader<'_, '_>, name: String) -> Read<Body> {
@@ -105,12 +105,12 @@ pub(super) fn joint(reader: &Reader<'_, '_>, name: String) -> Read<Joint> {
             "name another body",
         ));
     }
-    let parent = Frame { body: parent, pose: parent_pose.unwrap_or_else(Pose::identity) };
+    let parent = Frame { mount: parent, pose: parent_pose.unwrap_or_else(Pose::identity) };
     Ok(Joint { name, parent, child, child_pose, law: law? })
 }
 
 /// The name of a body, or a table that also says where on it.
-fn placed(reader: &Reader<'_, '_>, key: &str) -> Read<(BodyRef, Option<Pose>)> {
+fn placed(reader: &Reader<'_, '_>, key: &str) -> Read<(Mount, Option<Pose>)> {
     let (entry, format) = reader.entry(key).ok_or(Reported)?;
     let path = reader.key_path(key);
     let Shape::Placed(table) = format.shape else { return Err(Reported) };
@@ -172,7 +172,7 @@ fn one_coordinate(reader: &Reader<'_, '_>, kind: JointKind) -> Read<JointLaw> {
         rest: rest.unwrap_or(0.0),
         limits: limits?,
     };
-    Ok(JointLaw { kind, axis: axis?, coordinates: vec![coordinate] })
+    Ok(JointLaw { coordinates: vec![coordinate], ..JointLaw::free(kind, axis?) })
 }
 
 fn ball(reader: &Reader<'_, '_>) -> Read<JointLaw> {

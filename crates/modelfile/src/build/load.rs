@@ -28,9 +28,9 @@ fn attachment(reader: &Reader<'_, '_>, key: &str) -> Read<Attachment> {
         On::Body => {
             let body = table.body("body").needed();
             let point = point(&table);
-            Ok(Attachment::Body { body: body?, point: point? })
+            Ok(Attachment { mount: body?, point: point? })
         }
-        On::Beam => beam_point(&table).map(Attachment::Beam),
+        On::Beam => beam_point(&table).map(Attachment::on_beam),
     }
 }
 

@@ -69,8 +69,8 @@ pub fn joint(canvas: &mut Canvas, panel: &Panel, joint: &JointMark) {
     let length = axis[0].hypot(axis[1]);
     let outline = Style::line(INK, 1.3);
     match joint.kind {
-        JointKind::Weld => {}
-        JointKind::Prismatic if length > 0.35 => {
+        JointKind::Weld | JointKind::Free => {}
+        JointKind::Prismatic | JointKind::Cylindrical if length > 0.35 => {
             let (u, v) = ([axis[0] / length, axis[1] / length], [-axis[1] / length, axis[0] / length]);
             let place = |a: f64, b: f64| [at[0] + a * u[0] + b * v[0], at[1] + a * u[1] + b * v[1]];
             for side in [-6.0, 6.0] {
@@ -84,12 +84,12 @@ pub fn joint(canvas: &mut Canvas, panel: &Panel, joint: &JointMark) {
                 }
             }
         }
-        JointKind::Prismatic => {
+        JointKind::Prismatic | JointKind::Cylindrical | JointKind::Planar => {
             let corner = |x: f64, y: f64| [at[0] + 6.0 * x, at[1] + 6.0 * y];
             let square = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
             canvas.polygon(&square, "none", &outline);
         }
-        JointKind::Revolute | JointKind::Spherical => {
+        JointKind::Revolute | JointKind::Universal | JointKind::Spherical => {
             if joint.is_grounded {
                 stand(canvas, at);
             }
@@ -102,7 +102,7 @@ pub fn joint(canvas: &mut Canvas, panel: &Panel, joint: &JointMark) {
             } else {
                 canvas.circle(at, 4.2, "#ffffff", &outline);
             }
-            if joint.kind == JointKind::Spherical {
+            if matches!(joint.kind, JointKind::Spherical | JointKind::Universal) {
                 canvas.circle(at, 1.4, INK, &Style::line(INK, 0.5));
             }
         }

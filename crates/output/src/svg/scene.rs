@@ -1,7 +1,7 @@
 //! What there is to draw, in space.
 
-use flexura_model::{Attachment, Body, BodyRef, Frame, JointKind, LoadFrame, LoadTarget, Model};
-use flexura_solution::{BeamSample, BeamSolution, Solution};
+use flexura_model::{BeamPoint, Body, Frame, JointKind, LoadFrame, LoadTarget, Model, Mount};
+use flexura_solution::{BeamSample, Solution};
 use flexura_spatial::{Pose, Vector3};
 
 /// A beam's axis before and after.
@@ -102,9 +102,7 @@ impl Scene {
         let joints = add_joints(model, solution, &mut bodies);
         for spring in &model.springs {
             for end in [&spring.from, &spring.to] {
-                if let Attachment::Body { body, point } = end {
-                    add_arm(model, solution, &mut bodies, *body, &Pose::translation(*point));
-                }
+                add_arm(model, solution, &mut bodies, end.mount, &Pose::translation(end.point));
             }
         }
         Self {
@@ -142,13 +140,13 @@ fn add_beam_ends(model: &Model, solution: &Solution, bodies: &mut [BodyMark]) ->
         let ends = [(&beam.start, result.samples.first(), -1.0), (&beam.end, result.samples.last(), 1.0)];
         for (end, sample, sign) in ends {
             let (Some(end), Some(sample)) = (end, sample) else { continue };
-            match end.body {
-                BodyRef::Ground => supports.push(Support {
+            match end.mount {
+                Mount::Ground => supports.push(Support {
                     point: sample.pose.position,
                     outward: sample.pose.rotation * Vector3::x() * sign,
                     kind: end.hold.kind,
                 }),
-                BodyRef::Body(id) => {
+                Mount::Body(id) => {
                     if let Some(mark) = bodies.get_mut(id.0) {
                         mark.arms.push(Moved {
                             initial: sample.rest_pose.position,
@@ -156,6 +154,8 @@ fn add_beam_ends(model: &Model, solution: &Solution, bodies: &mut [BodyMark]) ->
                         });
                     }
                 }
+                // A beam held by another beam shows where by touching it.
+                Mount::Beam(_) => {}
             }
         }
     }
@@ -165,11 +165,11 @@ fn add_beam_ends(model: &Model, solution: &Solution, bodies: &mut [BodyMark]) ->
 fn add_joints(model: &Model, solution: &Solution, bodies: &mut [BodyMark]) -> Vec<JointMark> {
     let mut marks = Vec::new();
     for joint in &model.joints {
-        let fixed = final_pose(solution, joint.parent.body) * joint.parent.pose;
-        add_arm(model, solution, bodies, joint.parent.body, &joint.parent.pose);
+        let fixed = final_pose(solution, joint.parent.mount) * joint.parent.pose;
+        add_arm(model, solution, bodies, joint.parent.mount, &joint.parent.pose);
         let child_pose = joint.child_pose.unwrap_or_else(|| {
-            let parent = initial_pose(model, joint.parent.body) * joint.parent.pose;
-            initial_pose(model, joint.child).inverse() * parent
+            let parent = initial_pose(model, solution, joint.parent.mount) * joint.parent.pose;
+            initial_pose(model, solution, joint.child).inverse() * parent
         });
         let moving = final_pose(solution, joint.child) * child_pose;
         add_arm(model, solution, bodies, joint.child, &child_pose);
@@ -177,34 +177,36 @@ fn add_joints(model: &Model, solution: &Solution, bodies: &mut [BodyMark]) -> Ve
             point: moving.position,
             axis: fixed.rotation * joint.law.axis,
             kind: joint.law.kind,
-            is_grounded: joint.parent.body == BodyRef::Ground || joint.child == BodyRef::Ground,
+            is_grounded: joint.parent.mount == Mount::Ground || joint.child == Mount::Ground,
         });
     }
     marks
 }
 
-fn add_arm(model: &Model, solution: &Solution, bodies: &mut [BodyMark], body: BodyRef, pose: &Pose) {
-    if let BodyRef::Body(id) = body
+fn add_arm(model: &Model, solution: &Solution, bodies: &mut [BodyMark], body: Mount, pose: &Pose) {
+    if let Mount::Body(id) = body
         && let Some(mark) = bodies.get_mut(id.0)
     {
         mark.arms.push(Moved {
-            initial: initial_pose(model, body).point(&pose.position),
+            initial: initial_pose(model, solution, body).point(&pose.position),
             deformed: final_pose(solution, body).point(&pose.position),
         });
     }
 }
 
-fn initial_pose(model: &Model, body: BodyRef) -> Pose {
-    match body {
-        BodyRef::Ground => Pose::identity(),
-        BodyRef::Body(id) => model.bodies.get(id.0).map_or_else(Pose::identity, |body: &Body| body.pose),
+fn initial_pose(model: &Model, solution: &Solution, mount: Mount) -> Pose {
+    match mount {
+        Mount::Ground => Pose::identity(),
+        Mount::Beam(place) => sample_at(solution, place).map_or_else(Pose::identity, |s| s.rest_pose),
+        Mount::Body(id) => model.bodies.get(id.0).map_or_else(Pose::identity, |body: &Body| body.pose),
     }
 }
 
-fn final_pose(solution: &Solution, body: BodyRef) -> Pose {
-    match body {
-        BodyRef::Ground => Pose::identity(),
-        BodyRef::Body(id) => solution.bodies.get(id.0).copied().unwrap_or_else(Pose::identity),
+fn final_pose(solution: &Solution, mount: Mount) -> Pose {
+    match mount {
+        Mount::Ground => Pose::identity(),
+        Mount::Beam(place) => sample_at(solution, place).map_or_else(Pose::identity, |s| s.pose),
+        Mount::Body(id) => solution.bodies.get(id.0).copied().unwrap_or_else(Pose::identity),
     }
 }
 
@@ -214,14 +216,10 @@ fn loads(model: &Model, solution: &Solution) -> Vec<LoadMark> {
     for load in &model.loads {
         let pose = match load.target {
             LoadTarget::Body { body, point } => {
-                let frame = Frame { body: BodyRef::Body(body), pose: Pose::translation(point) };
-                Some(final_pose(solution, frame.body) * frame.pose)
+                let frame = Frame { mount: Mount::Body(body), pose: Pose::translation(point) };
+                Some(final_pose(solution, frame.mount) * frame.pose)
             }
-            LoadTarget::Beam(place) => solution
-                .beams
-                .get(place.beam.0)
-                .and_then(|beam| nearest(beam, place.at.arc_length(beam.length)))
-                .map(|sample| sample.pose),
+            LoadTarget::Beam(place) => sample_at(solution, place).map(|sample| sample.pose),
         };
         let Some(pose) = pose else { continue };
         let turned = |vector: Vector3<f64>| match load.frame {
@@ -237,6 +235,8 @@ fn loads(model: &Model, solution: &Solution) -> Vec<LoadMark> {
     marks
 }
 
-fn nearest(beam: &BeamSolution, s: f64) -> Option<&BeamSample> {
+fn sample_at(solution: &Solution, place: BeamPoint) -> Option<&BeamSample> {
+    let beam = solution.beams.get(place.beam.0)?;
+    let s = place.at.arc_length(beam.length);
     beam.samples.iter().min_by(|a, b| (a.s - s).abs().total_cmp(&(b.s - s).abs()))
 }

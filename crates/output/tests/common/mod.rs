@@ -25,8 +25,8 @@ pub fn arc(s: f64) -> Pose {
     Pose::new(exp(&Vector3::new(0.0, angle, 0.0)), position)
 }
 
-fn clamp(body: BodyRef) -> Option<End> {
-    Some(End { body, placement: None, hold: JointLaw::weld() })
+fn clamp(body: Mount) -> Option<End> {
+    Some(End { mount: body, placement: None, hold: JointLaw::weld() })
 }
 
 fn beam(name: &str, section: SectionId, material: Option<MaterialId>, length: f64) -> Beam {
@@ -37,8 +37,8 @@ fn beam(name: &str, section: SectionId, material: Option<MaterialId>, length: f6
         curve: Curve::Straight { length },
         frame: SectionFrame::Natural,
         theory: BeamTheory::default(),
-        start: clamp(BodyRef::Ground),
-        end: clamp(BodyRef::Body(BodyId(0))),
+        start: clamp(Mount::Ground),
+        end: clamp(Mount::Body(BodyId(0))),
         distributed: Vec::new(),
     }
 }
@@ -52,7 +52,7 @@ pub fn model() -> Model {
         inertia: Matrix3::zeros(),
     };
     let mut wire = beam("wire <\"b\">", SectionId(1), None, 0.1);
-    wire.start = clamp(BodyRef::Body(BodyId(1)));
+    wire.start = clamp(Mount::Body(BodyId(1)));
     wire.end = None;
     Model {
         name: "bent & held".into(),
@@ -92,17 +92,17 @@ pub fn model() -> Model {
         joints: vec![Joint {
             name: "hinge".into(),
             parent: Frame {
-                body: BodyRef::Body(BodyId(0)),
+                mount: Mount::Body(BodyId(0)),
                 pose: Pose::translation(Vector3::new(0.02, 0.0, 0.0)),
             },
-            child: BodyRef::Body(BodyId(1)),
+            child: Mount::Body(BodyId(1)),
             child_pose: None,
             law: JointLaw::free(JointKind::Revolute, Vector3::y()),
         }],
         springs: vec![Spring {
             name: "return".into(),
-            from: Attachment::Body { body: BodyRef::Ground, point: Vector3::new(0.0, 0.0, -0.15) },
-            to: Attachment::Body { body: BodyRef::Body(BodyId(0)), point: Vector3::zeros() },
+            from: Attachment { mount: Mount::Ground, point: Vector3::new(0.0, 0.0, -0.15) },
+            to: Attachment { mount: Mount::Body(BodyId(0)), point: Vector3::zeros() },
             law: SpringLaw::Linear { stiffness: 1.0, rest_length: None },
         }],
         loads: vec![Load {
@@ -161,6 +161,11 @@ pub fn solution() -> Solution {
         ],
         bodies: vec![tip, lever],
         joints: vec![JointSolution { coordinates: vec![-0.8], efforts: vec![0.0], wrench: Wrench::zero() }],
+        couplings: Vec::new(),
+        cables: Vec::new(),
+        tangents: Vec::new(),
+        sensitivities: None,
+        found: Vec::new(),
         springs: vec![SpringSolution {
             ends: [spring_start, tip.position],
             length: (tip.position - spring_start).norm(),

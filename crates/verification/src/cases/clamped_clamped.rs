@@ -3,7 +3,7 @@
 use crate::build::{Stiffness, UNSHEARABLE, cantilever, clamped};
 use crate::measure::{Units, largest_deviation, parts, solve};
 use crate::{Case, Row};
-use flexura_model::{BodyRef, Curve, Model};
+use flexura_model::{Curve, Model, Mount};
 use flexura_spatial::{Pose, Twist, Vector3, exp};
 use flexura_testkit::collocation::{self, Mesh, Solution, Tip};
 use flexura_testkit::ivp::rest_poses;
@@ -69,7 +69,7 @@ impl Held {
             None => Curve::Straight { length: 1.0 },
         };
         let mut model = cantilever(self.stiffness.section(), curve, UNSHEARABLE, place);
-        model.beams[0].end = Some(clamped(BodyRef::Ground, Some(place * self.end)));
+        model.beams[0].end = Some(clamped(Mount::Ground, Some(place * self.end)));
         model
     }
 

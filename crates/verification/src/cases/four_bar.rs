@@ -4,8 +4,8 @@ use crate::build::{Stiffness, UNSHEARABLE, clamped};
 use crate::measure::{Units, apart, largest_deviation, parts, root, solve, tip, worst};
 use crate::{Case, Row};
 use flexura_model::{
-    Beam, Body, BodyId, BodyRef, Curve, Drive, Frame, Joint, JointKind, JointLaw, Load, LoadFrame,
-    LoadTarget, Model, SectionFrame, SectionId,
+    Beam, Body, BodyId, Curve, Drive, Frame, Joint, JointKind, JointLaw, Load, LoadFrame, LoadTarget, Model,
+    Mount, SectionFrame, SectionId,
 };
 use flexura_solution::Solution;
 use flexura_spatial::{Matrix3, Pose, Vector3, Wrench, exp};
@@ -46,8 +46,8 @@ const PULL: Vector3<f64> = Vector3::new(0.15, 0.0, 0.1);
 fn revolute(name: &str, at: Vector3<f64>, axis: Vector3<f64>, child: usize) -> Joint {
     Joint {
         name: name.to_string(),
-        parent: Frame { body: BodyRef::Ground, pose: Pose::translation(at) },
-        child: BodyRef::Body(BodyId(child)),
+        parent: Frame { mount: Mount::Ground, pose: Pose::translation(at) },
+        child: Mount::Body(BodyId(child)),
         child_pose: None,
         law: JointLaw::free(JointKind::Revolute, axis.normalize()),
     }
@@ -82,8 +82,8 @@ fn model() -> Model {
         curve: Curve::Straight { length: SPAN },
         frame: SectionFrame::Natural,
         theory: UNSHEARABLE,
-        start: Some(clamped(BodyRef::Body(BodyId(0)), Some(top))),
-        end: Some(clamped(BodyRef::Body(BodyId(1)), Some(turned))),
+        start: Some(clamped(Mount::Body(BodyId(0)), Some(top))),
+        end: Some(clamped(Mount::Body(BodyId(1)), Some(turned))),
         distributed: Vec::new(),
     });
     model.loads.push(Load {

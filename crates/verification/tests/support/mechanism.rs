@@ -25,8 +25,8 @@ fn constants(v: Vector3<f64>) -> [Profile; 3] {
     [v.x, v.y, v.z].map(Profile::Constant)
 }
 
-fn end(body: BodyRef, placement: Option<Pose>, kind: JointKind) -> Option<End> {
-    Some(End { body, placement, hold: JointLaw::free(kind, Vector3::x()) })
+fn end(body: Mount, placement: Option<Pose>, kind: JointKind) -> Option<End> {
+    Some(End { mount: body, placement, hold: JointLaw::free(kind, Vector3::x()) })
 }
 
 fn body(name: &str, pose: Pose, mass: f64) -> Body {
@@ -51,7 +51,7 @@ pub fn mechanism(draw: &Draw) -> Model {
     let across = Vector3::new(along.z, along.x, along.y);
     let mut model = Model { gravity: across * 1.5, ..Model::default() };
     add_sections(&mut model);
-    let (ground, stage) = (BodyRef::Ground, BodyRef::Body(BodyId(STAGE)));
+    let (ground, stage) = (Mount::Ground, Mount::Body(BodyId(STAGE)));
     let root = placed([0.0, -1.3, 0.2], [0.1, 0.0, -0.1]);
     // At the mast's end, turned a little against it.
     let top = root * placed([0.3, 0.1, -0.2], [1.0, 0.0, 0.0]);
@@ -134,13 +134,13 @@ fn add_sections(model: &mut Model) {
 }
 
 fn add_joints_and_loads(model: &mut Model, along: Vector3<f64>, across: Vector3<f64>) {
-    let (stage, lever) = (BodyRef::Body(BodyId(STAGE)), BodyRef::Body(BodyId(1)));
+    let (stage, lever) = (Mount::Body(BodyId(STAGE)), Mount::Body(BodyId(1)));
     let mut turn = JointLaw::free(JointKind::Revolute, Vector3::new(0.6, 0.0, 0.8));
     turn.coordinates[0] =
         CoordinateLaw { drive: Drive::Free { effort: 0.1 }, stiffness: 0.7, rest: 0.2, limits: None };
     model.joints.push(Joint {
         name: "turn".to_string(),
-        parent: Frame { body: stage, pose: placed([0.1, 0.0, 0.3], [0.1, 0.2, 0.0]) },
+        parent: Frame { mount: stage, pose: placed([0.1, 0.0, 0.3], [0.1, 0.2, 0.0]) },
         child: lever,
         child_pose: None,
         law: turn,
@@ -148,14 +148,14 @@ fn add_joints_and_loads(model: &mut Model, along: Vector3<f64>, across: Vector3<
     let linear = |stiffness: f64| SpringLaw::Linear { stiffness, rest_length: None };
     model.springs.push(Spring {
         name: "stay".to_string(),
-        from: Attachment::Body { body: lever, point: Vector3::new(0.2, 0.0, 0.1) },
-        to: Attachment::Body { body: BodyRef::Ground, point: Vector3::new(0.5, 1.0, 0.5) },
+        from: Attachment { mount: lever, point: Vector3::new(0.2, 0.0, 0.1) },
+        to: Attachment { mount: Mount::Ground, point: Vector3::new(0.5, 1.0, 0.5) },
         law: linear(0.8),
     });
     model.springs.push(Spring {
         name: "guy".to_string(),
-        from: Attachment::Beam(on(WHIP, 0.4)),
-        to: Attachment::Body { body: BodyRef::Ground, point: Vector3::new(-0.5, 0.2, 1.0) },
+        from: Attachment::on_beam(on(WHIP, 0.4)),
+        to: Attachment { mount: Mount::Ground, point: Vector3::new(-0.5, 0.2, 1.0) },
         law: linear(0.5),
     });
     model.masses.push(PointMass { name: "weight".to_string(), point: on(ARM, 0.3), mass: 0.15 });

@@ -30,7 +30,7 @@ pub fn moved(model: &Model, motion: &Pose) -> Model {
     for beam in &mut new.beams {
         for (end, is_start) in [(&mut beam.start, true), (&mut beam.end, false)] {
             if let Some(end) = end
-                && end.body == BodyRef::Ground
+                && end.mount == Mount::Ground
             {
                 end.placement = match end.placement {
                     None if is_start => Some(*motion),
@@ -45,15 +45,15 @@ pub fn moved(model: &Model, motion: &Pose) -> Model {
         }
     }
     for joint in &mut new.joints {
-        assert!(joint.child != BodyRef::Ground, "not needed here");
-        if joint.parent.body == BodyRef::Ground {
+        assert!(joint.child != Mount::Ground, "not needed here");
+        if joint.parent.mount == Mount::Ground {
             joint.parent.pose = *motion * joint.parent.pose;
         }
     }
     for spring in &mut new.springs {
         for end in [&mut spring.from, &mut spring.to] {
-            if let Attachment::Body { body: BodyRef::Ground, point } = end {
-                *point = motion.point(point);
+            if end.mount == Mount::Ground {
+                end.point = motion.point(&end.point);
             }
         }
     }
@@ -127,7 +127,7 @@ pub fn in_units(model: &Model, a: f64, b: f64) -> Model {
         *stiffness *= b / a;
         rest_length.iter_mut().for_each(|length| *length *= a);
         for end in [&mut spring.from, &mut spring.to] {
-            if let Attachment::Body { point, .. } = end {
+            if let Attachment { mount: Mount::Ground | Mount::Body(_), point } = end {
                 *point *= a;
             }
         }
@@ -158,10 +158,11 @@ fn flipped(at: At) -> At {
     }
 }
 
-fn body_pose(model: &Model, body: BodyRef) -> Pose {
+fn body_pose(model: &Model, body: Mount) -> Pose {
     match body {
-        BodyRef::Ground => Pose::identity(),
-        BodyRef::Body(id) => model[id].pose,
+        Mount::Ground => Pose::identity(),
+        Mount::Body(id) => model[id].pose,
+        Mount::Beam(_) => panic!("not needed here"),
     }
 }
 
@@ -170,7 +171,7 @@ fn rest(model: &Model, beam: usize) -> (Pose, RestShape) {
     let description = &model.beams[beam];
     let start = description.start.as_ref().expect("all beams have a start");
     let shape = RestShape::new(&description.curve, &description.frame).expect("a good curve");
-    (body_pose(model, start.body) * start.placement.unwrap_or(Pose::identity()), shape)
+    (body_pose(model, start.mount) * start.placement.unwrap_or(Pose::identity()), shape)
 }
 
 /// One beam described from its other end. Its curve is uniform, so that it reads the same both ways.
@@ -182,11 +183,11 @@ pub fn reversed(model: &Model, beam: usize) -> Model {
     let start = old
         .start
         .clone()
-        .map(|end| End { placement: Some(body_pose(model, end.body).inverse() * start_pose * turn), ..end });
+        .map(|end| End { placement: Some(body_pose(model, end.mount).inverse() * start_pose * turn), ..end });
     let far = start_pose * shape.pose(shape.length()) * turn;
     let end = old.end.clone().map(|end| {
         assert!(end.placement.is_none(), "not needed here");
-        End { placement: Some(body_pose(model, end.body).inverse() * far), ..end }
+        End { placement: Some(body_pose(model, end.mount).inverse() * far), ..end }
     });
     new.beams[beam].start = end;
     new.beams[beam].end = start;
@@ -220,7 +221,7 @@ pub fn reversed(model: &Model, beam: usize) -> Model {
     }
     for spring in &mut new.springs {
         for end in [&mut spring.from, &mut spring.to] {
-            if let Attachment::Beam(point) = end
+            if let Mount::Beam(point) = &mut end.mount
                 && point.beam.0 == beam
             {
                 point.at = flipped(point.at);
@@ -236,7 +237,7 @@ pub fn split(model: &Model, beam: usize, fraction: f64) -> Model {
     let mut new = model.clone();
     let (start_pose, shape) = rest(model, beam);
     let place = start_pose * shape.pose(fraction * shape.length());
-    let knot = BodyRef::Body(BodyId(new.bodies.len()));
+    let knot = Mount::Body(BodyId(new.bodies.len()));
     new.bodies.push(Body {
         name: "knot".to_string(),
         pose: place,
@@ -253,12 +254,12 @@ pub fn split(model: &Model, beam: usize, fraction: f64) -> Model {
     let second = Beam {
         name: "second_half".to_string(),
         curve: shorter(&whole.curve, 1.0 - fraction),
-        start: Some(End { body: knot, placement: None, hold: JointLaw::weld() }),
+        start: Some(End { mount: knot, placement: None, hold: JointLaw::weld() }),
         ..whole.clone()
     };
     let first = &mut new.beams[beam];
     first.curve = shorter(&whole.curve, fraction);
-    first.end = Some(End { body: knot, placement: None, hold: JointLaw::weld() });
+    first.end = Some(End { mount: knot, placement: None, hold: JointLaw::weld() });
     new.beams.push(second);
     let last = BeamId(new.beams.len() - 1);
     let points = new.loads.iter_mut().filter_map(|load| match &mut load.target {
@@ -298,8 +299,8 @@ pub fn permuted(model: &Model, order: &[usize]) -> Model {
     new.loads = reordered(&model.loads, order);
     new.masses = reordered(&model.masses, order);
     new.sections = reordered(&model.sections, order);
-    let body = |body: &mut BodyRef| {
-        if let BodyRef::Body(id) = body {
+    let body = |body: &mut Mount| {
+        if let Mount::Body(id) = body {
             *id = BodyId(place_of(order, id.0, model.bodies.len()));
         }
     };
@@ -309,21 +310,21 @@ pub fn permuted(model: &Model, order: &[usize]) -> Model {
     for (i, beam) in new.beams.iter_mut().enumerate() {
         beam.name = format!("z{}", 9 - i);
         beam.section = SectionId(place_of(order, beam.section.0, model.sections.len()));
-        [&mut beam.start, &mut beam.end].into_iter().flatten().for_each(|end| body(&mut end.body));
+        [&mut beam.start, &mut beam.end].into_iter().flatten().for_each(|end| body(&mut end.mount));
     }
     for (i, item) in new.bodies.iter_mut().enumerate() {
         item.name = format!("y{}", 9 - i);
     }
     for joint in &mut new.joints {
         joint.name = format!("x_{}", joint.name);
-        body(&mut joint.parent.body);
+        body(&mut joint.parent.mount);
         body(&mut joint.child);
     }
     for spring in &mut new.springs {
         for end in [&mut spring.from, &mut spring.to] {
-            match end {
-                Attachment::Body { body: on, .. } => body(on),
-                Attachment::Beam(point) => on_beam(point),
+            match &mut end.mount {
+                Mount::Beam(point) => on_beam(point),
+                on => body(on),
             }
         }
     }
