@@ -20,9 +20,9 @@
 use crate::lower::{Carrier, Hold};
 use crate::shooting::{Plain, SegmentEnd, carry_columns, carry_plain, jump, plain, pose_of, wrench_of};
 use crate::system::Equilibrium;
-use flexura_mechanics::joint::{Configuration, Kinematics};
+use flexura_mechanics::joint::{Configuration, Kinematics, MAX_FREEDOMS};
 use flexura_nonlinear::{Block, Breakdown, Dense};
-use flexura_spatial::{Pose, Twist, Vector3, Wrench, log};
+use flexura_spatial::{Pose, Twist, UnitQuaternion, Vector3, Wrench, log};
 
 type V = Vector3<f64>;
 
@@ -48,10 +48,10 @@ pub(crate) struct Held {
     /// The same with what is left of the mismatch.
     pub target: Pose,
     /// Columns of H of the unknown coordinates, global.
-    subspace: [Twist; 3],
+    subspace: [Twist; MAX_FREEDOMS],
     count: usize,
-    /// The lines of H turn with M rather than with F.
-    turns_with_m: bool,
+    /// F's axes, in which changes of H are given.
+    fixed: UnitQuaternion<f64>,
 }
 
 impl Held {
@@ -71,6 +71,20 @@ impl Held {
         let h = &self.subspace[i];
         let lever = self.target.position - self.moving.position;
         Twist { angular: h.angular, linear: h.linear + h.angular.cross(&lever) }
+    }
+
+    /// Number of unknowns that move the target: of its node, then coordinates.
+    pub fn motions(&self) -> usize {
+        self.count + if self.node.is_some() { 6 } else { 0 }
+    }
+
+    /// How the target moves along the `i`-th of them.
+    pub fn motion(&self, i: usize) -> Twist {
+        match (self.node.is_some(), i) {
+            (true, 0..6) => self.by_node(i),
+            (true, _) => self.by_coordinate(i - 6),
+            (false, _) => self.by_coordinate(i),
+        }
     }
 
     fn arm(&self) -> V {
@@ -98,7 +112,7 @@ impl Equilibrium {
             let twist = Twist { angular: hold.mismatch.angular * left, linear: hold.mismatch.linear * left };
             moving * Pose::exp(&twist)
         };
-        let mut subspace = [Twist { angular: V::zeros(), linear: V::zeros() }; 3];
+        let mut subspace = [Twist { angular: V::zeros(), linear: V::zeros() }; MAX_FREEDOMS];
         let count = coordinates.unknowns();
         for (i, h) in subspace.iter_mut().enumerate().take(count) {
             let local = coordinates.subspace(configuration, i);
@@ -110,7 +124,7 @@ impl Equilibrium {
             target,
             subspace,
             count,
-            turns_with_m: coordinates.spin_held.is_some(),
+            fixed: fixed.rotation,
         }
     }
 
@@ -154,35 +168,6 @@ impl Equilibrium {
         count
     }
 
-    /// Derivatives of the start of a span along its head unknowns.
-    fn seed_head(&self, span: usize, held: &Held, end: &mut SegmentEnd) {
-        let slot = &self.layout.spans[span].wrench;
-        let mut count = 0;
-        let mut push = |angular: V, linear: V| {
-            let column = &mut end.columns[count];
-            *column = [0.0; 12];
-            column[..3].copy_from_slice(angular.as_slice());
-            column[3..6].copy_from_slice(linear.as_slice());
-            count += 1;
-        };
-        if held.node.is_some() {
-            for i in 0..6 {
-                let twist = held.by_node(i);
-                push(twist.angular, twist.linear);
-            }
-        }
-        for i in 0..held.count {
-            let twist = held.by_coordinate(i);
-            push(twist.angular, twist.linear);
-        }
-        for i in 0..slot.count {
-            end.columns[count] = [0.0; 12];
-            end.columns[count][12 - slot.count + i] = 1.0;
-            count += 1;
-        }
-        end.count = count;
-    }
-
     /// Evaluates the residual, and the tangent too if asked.
     pub(crate) fn evaluate(&mut self, tangent: bool) -> Result<(), Breakdown> {
         let mut matrix = std::mem::take(&mut self.tangent);
@@ -199,8 +184,10 @@ impl Equilibrium {
         for joint in 0..self.lowered.joints.len() {
             self.evaluate_joint(joint, &mut sink);
         }
+        self.evaluate_gears(&mut sink);
         self.evaluate_node_loads(&mut sink);
         self.evaluate_springs(&mut sink);
+        self.evaluate_ropes(&mut sink);
         if r.iter().any(|v| !v.is_finite()) {
             outcome = outcome.and(Err(Breakdown::NotFinite));
         }
@@ -226,15 +213,11 @@ impl Equilibrium {
                     if k == 0 { head } else { self.inner_state(self.layout.spans[span].inner[k - 1].state) };
                 if derive {
                     if k == 0 {
-                        self.seed_head(span, &held, end);
+                        self.carry_head(span, &held, &wrench, segment, end);
                     } else {
-                        end.count = 12;
-                        for (i, column) in end.columns[..12].iter_mut().enumerate() {
-                            *column = [0.0; 12];
-                            column[i] = 1.0;
-                        }
+                        end.seed(0);
+                        carry_columns(segment, jumps, first, load, &start, end);
                     }
-                    carry_columns(segment, jumps, first, load, &start, end);
                 } else {
                     end.state = start;
                     for &j in first {
@@ -423,7 +406,8 @@ impl Equilibrium {
         if held.count == 0 {
             return;
         }
-        let (tau, slope) = coordinates.efforts(&self.configuration(slot), self.load);
+        let configuration = self.configuration(slot);
+        let (tau, slope) = coordinates.efforts(&configuration, self.load);
         let lever = held.target.position - held.moving.position;
         let about = wrench.moment + lever.cross(&wrench.force);
         for i in 0..held.count {
@@ -449,8 +433,10 @@ impl Equilibrium {
                 }
             }
             for (j, other) in held.subspace.iter().enumerate().take(held.count) {
-                let change = turned(&other.angular, held.turns_with_m) - slope[i][j];
-                sink.add_number(row, slot.unknown + j, change);
+                let change = coordinates.subspace_change(&configuration, i, j);
+                let lines = (held.fixed * change.angular).dot(&about)
+                    + (held.fixed * change.linear).dot(&wrench.force);
+                sink.add_number(row, slot.unknown + j, turned(&other.angular, false) + lines - slope[i][j]);
             }
         }
     }

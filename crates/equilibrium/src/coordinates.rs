@@ -65,6 +65,11 @@ impl Coordinates {
         if self.spin_held.is_some() { 2 } else { self.free.len() }
     }
 
+    /// Which of the unknown coordinates coordinate `i` is; None where it is driven.
+    pub fn unknown_of(&self, i: usize) -> Option<usize> {
+        self.free.iter().position(|free| *free == i)
+    }
+
     /// Is nothing acting on the coordinates, and none driven?
     pub fn is_plain(&self) -> bool {
         self.laws.iter().all(|c| {
@@ -82,6 +87,18 @@ impl Coordinates {
                 linear: Vector3::zeros(),
             },
             None => self.joint.subspace(configuration, self.free[i]),
+        }
+    }
+
+    /// How column `i` of H changes along unknown coordinate `j`, in F's axes. The lines of a held spin turn with M,
+    /// along whatever turns it.
+    pub fn subspace_change(&self, configuration: &Configuration, i: usize, j: usize) -> Twist {
+        match &self.spin_held {
+            Some(_) => {
+                let (line, axis) = (self.subspace(configuration, i), self.subspace(configuration, j));
+                Twist { angular: axis.angular.cross(&line.angular), linear: Vector3::zeros() }
+            }
+            None => self.joint.subspace_change(configuration, self.free[i], self.free[j]),
         }
     }
 

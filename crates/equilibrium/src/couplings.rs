@@ -1,8 +1,10 @@
 //! Residual and tangent of what couples nodes: joints, point loads, springs.
 
 use crate::assembly::{HoldRef, Sink, unit};
+use crate::lower::RopeLaw;
 use crate::system::{Equilibrium, read_pose};
-use flexura_mechanics::spring::LinearSpring;
+use flexura_mechanics::joint::Kinematics;
+use flexura_mechanics::spring::{LinearSpring, SpringForce, constant_tension};
 use flexura_spatial::{Vector3, Wrench, log};
 
 type V = Vector3<f64>;
@@ -18,12 +20,22 @@ impl Equilibrium {
         let wrench = Wrench::new(self.triple(slots.wrench.state), self.triple(slots.wrench.state + 3));
         let closure = slots.wrench.unknown;
         let error = child.rotation * held.target.rotation.inverse();
-        sink.add_residual(closure, &log(&error));
-        sink.add_residual(closure + 3, &(child.position - held.target.position));
+        let kept = self.kept_rows(index);
+        let keep = |v: V, first: usize| v.component_mul(&kept[first]);
+        sink.add_residual(closure, &keep(log(&error), 0));
+        sink.add_residual(closure + 3, &keep(child.position - held.target.position, 1));
+        for row in 0..6 {
+            if self.slack.get(index).is_some_and(|slack| slack[row]) {
+                // The loop closes without this row; instead the wrench's component there is held at zero.
+                let component = (row + 3) % 6;
+                sink.r[closure + row] += self.x[slots.wrench.state + component];
+                sink.add_number(closure + row, closure + component, 1.0);
+            }
+        }
         if sink.matrix.is_some() {
             self.target_columns(&held, slots.coordinates.unknown, |unknown, twist| {
-                sink.add(closure, unknown, &-(error * twist.angular));
-                sink.add(closure + 3, unknown, &-twist.linear);
+                sink.add(closure, unknown, &keep(-(error * twist.angular), 0));
+                sink.add(closure + 3, unknown, &keep(-twist.linear, 1));
             });
         }
         let wrench_column = |i: usize| {
@@ -36,9 +48,9 @@ impl Equilibrium {
             sink.add_residual(rows + 3, &wrench.force);
             if sink.matrix.is_some() {
                 for i in 0..3 {
-                    sink.add(closure, rows + i, &unit(i));
-                    sink.add(closure + 3, rows + i, &unit(i).cross(&arm));
-                    sink.add(closure + 3, rows + 3 + i, &unit(i));
+                    sink.add(closure, rows + i, &keep(unit(i), 0));
+                    sink.add(closure + 3, rows + i, &keep(unit(i).cross(&arm), 1));
+                    sink.add(closure + 3, rows + 3 + i, &keep(unit(i), 1));
                     sink.add(rows, rows + i, &unit(i).cross(&arm).cross(&wrench.force));
                 }
                 for i in 0..6 {
@@ -92,39 +104,122 @@ impl Equilibrium {
     pub(crate) fn evaluate_springs(&self, sink: &mut Sink<'_>) {
         for (index, link) in self.lowered.springs.iter().enumerate() {
             let ends = self.spring_ends(index);
-            let Some(force) = self.spring_law(index).between(&ends[0], &ends[1]) else {
-                if let Some((Some(node), _)) = link.ends.iter().find(|(node, _)| node.is_some()) {
-                    sink.r[self.layout.nodes[*node].unknown] = f64::NAN;
-                }
+            match self.spring_law(index).between(&ends[0], &ends[1]) {
+                Some(force) => self.pull(&link.ends, &ends, &force, sink),
+                None => self.refuse(&link.ends, sink),
+            }
+        }
+    }
+
+    /// Two ends have met, so that what pulls between them has no direction: the state is refused.
+    fn refuse(&self, ends: &[(Option<usize>, V); 2], sink: &mut Sink<'_>) {
+        if let Some((Some(node), _)) = ends.iter().find(|(node, _)| node.is_some()) {
+            sink.r[self.layout.nodes[*node].unknown] = f64::NAN;
+        }
+    }
+
+    /// Forces along a line between two points on nodes.
+    fn pull(&self, on: &[(Option<usize>, V); 2], ends: &[V; 2], force: &SpringForce, sink: &mut Sink<'_>) {
+        for (which, (node, _)) in on.iter().enumerate() {
+            let Some(node) = *node else { continue };
+            let rows = self.layout.nodes[node].unknown;
+            let sign = if which == 0 { 1.0 } else { -1.0 };
+            let arm = ends[which] - self.node_pose(Some(node)).position;
+            let f = force.force * sign;
+            sink.add_residual(rows, &arm.cross(&f));
+            sink.add_residual(rows + 3, &f);
+            if sink.matrix.is_none() {
                 continue;
-            };
-            for (which, (node, _)) in link.ends.iter().enumerate() {
-                let Some(node) = *node else { continue };
-                let rows = self.layout.nodes[node].unknown;
-                let sign = if which == 0 { 1.0 } else { -1.0 };
-                let arm = ends[which] - self.node_pose(Some(node)).position;
-                let f = force.force * sign;
-                sink.add_residual(rows, &arm.cross(&f));
-                sink.add_residual(rows + 3, &f);
-                if sink.matrix.is_none() {
-                    continue;
-                }
-                for i in 0..3 {
-                    sink.add(rows, rows + i, &unit(i).cross(&arm).cross(&f));
-                }
-                for (other, (carrier, _)) in link.ends.iter().enumerate() {
-                    let Some(carrier) = *carrier else { continue };
-                    let columns = self.layout.nodes[carrier].unknown;
-                    let lever = ends[other] - self.node_pose(Some(carrier)).position;
-                    let towards = if other == 1 { sign } else { -sign };
-                    for i in 0..6 {
-                        let motion = if i < 3 { unit(i).cross(&lever) } else { unit(i - 3) };
-                        let change = force.tangent * motion * towards;
-                        sink.add(rows, columns + i, &arm.cross(&change));
-                        sink.add(rows + 3, columns + i, &change);
-                    }
+            }
+            for i in 0..3 {
+                sink.add(rows, rows + i, &unit(i).cross(&arm).cross(&f));
+            }
+            for (other, (carrier, _)) in on.iter().enumerate() {
+                let Some(carrier) = *carrier else { continue };
+                let columns = self.layout.nodes[carrier].unknown;
+                let lever = ends[other] - self.node_pose(Some(carrier)).position;
+                let towards = if other == 1 { sign } else { -sign };
+                for i in 0..6 {
+                    let motion = if i < 3 { unit(i).cross(&lever) } else { unit(i - 3) };
+                    let change = force.tangent * motion * towards;
+                    sink.add(rows, columns + i, &arm.cross(&change));
+                    sink.add(rows + 3, columns + i, &change);
                 }
             }
         }
+    }
+
+    /// The tension of a cable at the present load and state.
+    pub(crate) fn tension(&self, rope: usize) -> f64 {
+        match (self.lowered.ropes[rope].law, self.layout.ropes[rope]) {
+            (_, Some(slot)) => self.x[slot.state],
+            (RopeLaw::Tension(tension), None) => self.load * tension,
+            (RopeLaw::Length(_), None) => 0.0,
+        }
+    }
+
+    /// Cables: a constant tension T along every line of the course; where the length is given instead,
+    /// `ℓ = ℓ_rest + λ (ℓ_wanted - ℓ_rest)` finds T.
+    pub(crate) fn evaluate_ropes(&self, sink: &mut Sink<'_>) {
+        for (index, rope) in self.lowered.ropes.iter().enumerate() {
+            let tension = self.tension(index);
+            let unknown = self.layout.ropes[index].map(|slot| slot.unknown);
+            let mut length = 0.0;
+            for line in &rope.lines {
+                let ends = line.map(|(node, point)| self.node_pose(node).point(&point));
+                let Some(force) = constant_tension(tension, &ends) else {
+                    self.refuse(line, sink);
+                    continue;
+                };
+                length += force.length;
+                self.pull(line, &ends, &force, sink);
+                let Some(unknown) = unknown else { continue };
+                let along = (ends[1] - ends[0]) / force.length;
+                for (which, (node, _)) in line.iter().enumerate() {
+                    let Some(node) = *node else { continue };
+                    let rows = self.layout.nodes[node].unknown;
+                    let u = if which == 0 { along } else { -along };
+                    let arm = ends[which] - self.node_pose(Some(node)).position;
+                    // dF/dT on the node, and minus the same is how the length changes when the node moves.
+                    let moment = arm.cross(&u);
+                    sink.add(rows, unknown, &moment);
+                    sink.add(rows + 3, unknown, &u);
+                    for i in 0..3 {
+                        sink.add_number(unknown, rows + i, -moment[i]);
+                        sink.add_number(unknown, rows + 3 + i, -u[i]);
+                    }
+                }
+            }
+            if let (RopeLaw::Length([rest, wanted]), Some(unknown)) = (rope.law, unknown) {
+                sink.r[unknown] += length - (rest + self.load * (wanted - rest));
+            }
+        }
+    }
+
+    /// Couplings: `Σ factor (q - q_rest) = λ (offset - Σ factor q_rest)`, kept by efforts factor × multiplier.
+    pub(crate) fn evaluate_gears(&self, sink: &mut Sink<'_>) {
+        for (gear, slot) in self.lowered.gears.iter().zip(&self.layout.gears) {
+            let [rest, wanted] = gear.offset;
+            sink.r[slot.unknown] -= rest + self.load * (wanted - rest);
+            for &(joint, coordinate, factor) in &gear.terms {
+                let coordinates = &self.lowered.joints[joint].coordinates;
+                let slots = &self.layout.joints[joint].coordinates;
+                let q = coordinates.joint.coordinates(&self.configuration(slots))[coordinate];
+                sink.r[slot.unknown] += factor * q;
+                if let Some(i) = coordinates.unknown_of(coordinate) {
+                    let row = slots.unknown + i;
+                    sink.r[row] -= factor * self.x[slot.state];
+                    sink.add_number(slot.unknown, row, factor);
+                    sink.add_number(row, slot.unknown, -factor);
+                }
+            }
+        }
+    }
+
+    /// One where a closure row of a joint stands, zero where the loop closes without it: turning, then shift.
+    fn kept_rows(&self, joint: usize) -> [V; 2] {
+        let Some(slack) = self.slack.get(joint) else { return [V::repeat(1.0); 2] };
+        let one = |row: usize| if slack[row] { 0.0 } else { 1.0 };
+        [V::new(one(0), one(1), one(2)), V::new(one(3), one(4), one(5))]
     }
 }

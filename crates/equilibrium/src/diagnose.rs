@@ -1,7 +1,7 @@
 //! What the mechanism is made of, what is loose in it, and what is held twice.
 
 use crate::error::ProblemError;
-use crate::lower::NodeOrigin;
+use crate::lower::{JointOrigin, NodeOrigin};
 use crate::system::Equilibrium;
 use flexura_nonlinear::{Breakdown, System};
 use nalgebra::DMatrix;
@@ -29,6 +29,16 @@ impl Equilibrium {
             NodeOrigin::Body(i) => format!("body.{}", self.model.bodies[i].name),
             NodeOrigin::Hub { beam, s } => {
                 format!("beam.{}[{}]", self.model.beams[beam].name, crate::lower::length_text(s))
+            }
+        }
+    }
+
+    pub(crate) fn joint_name(&self, joint: usize) -> String {
+        match self.lowered.joints[joint].origin {
+            JointOrigin::Joint(i) => format!("joint.{}", self.model.joints[i].name),
+            JointOrigin::Hold { beam, start } => {
+                let which = if start { "start" } else { "end" };
+                format!("beam.{}.{which}", self.model.beams[beam].name)
             }
         }
     }
@@ -71,14 +81,22 @@ impl Equilibrium {
                 slots.end.count,
             );
         }
-        for (joint, slots) in self.model.joints.iter().zip(&self.layout.joints) {
-            let name = format!("joint.{}", joint.name);
+        for (i, slots) in self.layout.joints.iter().enumerate() {
+            let name = self.joint_name(i);
             add(
                 format!("{name}: coordinates"),
                 format!("{name}: effort on its coordinates"),
                 slots.coordinates.count,
             );
             add(format!("{name}: force and moment"), format!("{name}: its two frames fit"), 6);
+        }
+        for coupling in &self.model.couplings {
+            let name = format!("coupling.{}", coupling.name);
+            add(format!("{name}: effort that keeps it"), format!("{name}: its relation"), 1);
+        }
+        for (cable, slot) in self.model.cables.iter().zip(&self.layout.ropes) {
+            let name = format!("cable.{}", cable.name);
+            add(format!("{name}: tension"), format!("{name}: length"), usize::from(slot.is_some()));
         }
         census.warnings.extend(self.wide_strips());
         census
@@ -158,13 +176,23 @@ impl Equilibrium {
             }
         }
         let mut twice = Vec::new();
-        for (joint, slots) in self.model.joints.iter().zip(&self.layout.joints) {
+        for (i, slots) in self.layout.joints.iter().enumerate() {
             let count = slots.coordinates.count;
             if count > 0 && part(slots.coordinates.unknown, count) > SEEN {
-                loose.push(format!("joint.{}", joint.name));
+                loose.push(self.joint_name(i));
             }
             if part(slots.wrench.unknown, 6) > SEEN {
-                twice.push(format!("joint.{}", joint.name));
+                twice.push(self.joint_name(i));
+            }
+        }
+        for (coupling, slot) in self.model.couplings.iter().zip(&self.layout.gears) {
+            if part(slot.unknown, 1) > SEEN {
+                twice.push(format!("coupling.{}", coupling.name));
+            }
+        }
+        for (cable, slot) in self.model.cables.iter().zip(&self.layout.ropes) {
+            if slot.is_some_and(|slot| part(slot.unknown, 1) > SEEN) {
+                twice.push(format!("cable.{}", cable.name));
             }
         }
         for (i, slots) in self.layout.spans.iter().enumerate() {

@@ -3,10 +3,11 @@
 //! The unknowns come in two parts: first those of the interface (nodes, start wrenches and coordinates, the
 //! last inner state of each span, joints), then the inner states that block elimination removes. Equations
 //! use the same numbering: a node's balance stands at its pose, a span's closure at its start wrench, a
-//! coordinate's effort balance at the coordinate, a joint's closure at its wrench.
+//! coordinate's effort balance at the coordinate, a joint's closure at its wrench, a coupling's relation at its multiplier, a
+//! cable's length at its tension.
 
 use crate::coordinates::Coordinates;
-use crate::lower::Lowered;
+use crate::lower::{Lowered, RopeLaw};
 use crate::mesh::SpanMesh;
 
 /// Where a pose lies: seven numbers of the state, six unknowns (turning, shift).
@@ -54,11 +55,21 @@ pub(crate) struct JointSlots {
     pub wrench: WrenchSlot,
 }
 
+/// Where a single number lies: the multiplier of a coupling, the tension of a cable.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NumberSlot {
+    pub state: usize,
+    pub unknown: usize,
+}
+
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Layout {
     pub nodes: Vec<PoseSlot>,
     pub spans: Vec<SpanSlots>,
     pub joints: Vec<JointSlots>,
+    pub gears: Vec<NumberSlot>,
+    /// None where the tension is given.
+    pub ropes: Vec<Option<NumberSlot>>,
     /// Unknowns of the interface.
     pub interface: usize,
     /// All unknowns.
@@ -96,6 +107,11 @@ impl Counter {
         WrenchSlot { state, unknown, count }
     }
 
+    fn number(&mut self) -> NumberSlot {
+        let (state, unknown) = self.take(1, 1);
+        NumberSlot { state, unknown }
+    }
+
     fn inner(&mut self) -> InnerSlot {
         let (state, unknown) = self.take(13, 12);
         InnerSlot { state, unknown }
@@ -125,6 +141,12 @@ impl Layout {
                 wrench: counter.wrench(6),
             })
             .collect();
+        let gears = lowered.gears.iter().map(|_| counter.number()).collect();
+        let ropes = lowered
+            .ropes
+            .iter()
+            .map(|rope| matches!(rope.law, RopeLaw::Length(_)).then(|| counter.number()))
+            .collect();
         let interface = counter.unknown;
         for (slots, mesh) in spans.iter_mut().zip(meshes) {
             let eliminated = mesh.segments.len().saturating_sub(2);
@@ -132,6 +154,15 @@ impl Layout {
             inner.append(&mut slots.inner);
             slots.inner = inner;
         }
-        Self { nodes, spans, joints, interface, unknowns: counter.unknown, state: counter.state }
+        Self {
+            nodes,
+            spans,
+            joints,
+            gears,
+            ropes,
+            interface,
+            unknowns: counter.unknown,
+            state: counter.state,
+        }
     }
 }

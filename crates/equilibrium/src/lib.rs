@@ -20,6 +20,7 @@ mod couplings;
 mod diagnose;
 mod error;
 mod extract;
+mod head;
 mod layout;
 mod lower;
 mod mesh;

@@ -215,6 +215,12 @@ impl Equilibrium {
             copy(&mut self.x, to.coordinates.state, &old.x, from.coordinates.state, MAX_CONFIGURATION);
             copy(&mut self.x, to.wrench.state, &old.x, from.wrench.state, 6);
         }
+        let numbers = |layout: &Layout| -> Vec<usize> {
+            layout.gears.iter().chain(layout.ropes.iter().flatten()).map(|slot| slot.state).collect()
+        };
+        for (to, from) in numbers(&self.layout).into_iter().zip(numbers(&old.layout)) {
+            self.x[to] = old.x[from];
+        }
         for i in 0..self.layout.spans.len() {
             let (to, from) = (&self.layout.spans[i], &old.layout.spans[i]);
             copy(&mut self.x, to.start.state, &old.x, from.start.state, MAX_CONFIGURATION);

@@ -1,7 +1,8 @@
 //! Spans carried from node to node, with their derivatives.
 //!
-//! The head of a span depends on at most fifteen unknowns: six of the node that carries it, up to three
-//! coordinates of its hold, six of its start wrench. Later segments start from a state of twelve unknowns.
+//! The head of a span depends on at most eighteen unknowns: six of the node that carries it, up to six
+//! coordinates of its hold, six of its start wrench. Of these the kernel carries at most the twelve of a start
+//! pose and start wrench, from which the others follow; later segments start from a state of twelve unknowns.
 //! The kernel carries as many derivative lanes as there are, rounded up to four, eight, twelve or sixteen.
 
 use crate::lower::Jump;
@@ -10,7 +11,7 @@ use flexura_mechanics::rod::{RodState, advance};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, Wrench};
 
 /// Most unknowns that the start of a segment depends on.
-pub(crate) const MAX_COLUMNS: usize = 15;
+pub(crate) const MAX_COLUMNS: usize = 18;
 
 /// Derivative of (turning, position, force, moment) along one unknown.
 pub(crate) type Column = [f64; 12];
@@ -27,6 +28,15 @@ pub(crate) struct SegmentEnd {
 }
 
 impl SegmentEnd {
+    /// Starts derivatives along the numbers `first..12` of (turning, position, force, moment).
+    pub fn seed(&mut self, first: usize) {
+        self.count = 12 - first;
+        for (i, column) in self.columns[..self.count].iter_mut().enumerate() {
+            *column = [0.0; 12];
+            column[first + i] = 1.0;
+        }
+    }
+
     pub fn new() -> Self {
         Self { state: Plain::origin(), columns: [[0.0; 12]; MAX_COLUMNS], count: 0 }
     }

@@ -40,6 +40,8 @@ pub struct Equilibrium {
     scratch: Vec<f64>,
     /// The step by which the state was last moved.
     pub(crate) last_step: Vec<f64>,
+    /// For each joint the closure rows without which its loop closes already; empty where every row is needed.
+    pub(crate) slack: Vec<[bool; 6]>,
     pub(crate) forced_segments: Option<usize>,
     pub(crate) finest_path: f64,
     pub(crate) counts: Counts,
@@ -62,7 +64,7 @@ impl Equilibrium {
     /// # Errors
     /// A beam that is held nowhere, a rest shape or section without sound numbers.
     pub fn new(model: &Model) -> Result<Self, ProblemError> {
-        let lowered = lower::lower(model)?;
+        let lowered = lower::lower(model, &[], None)?;
         let mut this = Self {
             model: model.clone(),
             meshes: Vec::new(),
@@ -82,6 +84,7 @@ impl Equilibrium {
             weights: Vec::new(),
             scratch: Vec::new(),
             last_step: Vec::new(),
+            slack: Vec::new(),
             forced_segments: None,
             finest_path: f64::INFINITY,
             counts: Counts::default(),
@@ -176,6 +179,9 @@ impl Equilibrium {
             for slots in &self.layout.joints {
                 let at = slots.wrench.unknown;
                 self.weights[at..at + 6].fill(1.0 / largest);
+            }
+            for slot in self.layout.gears.iter().chain(self.layout.ropes.iter().flatten()) {
+                self.weights[slot.unknown] = 1.0 / largest;
             }
         }
     }
@@ -275,7 +281,8 @@ impl Equilibrium {
             .map(|w| (w.state + 6 - w.count, w.unknown, w.count));
         let inner =
             self.layout.spans.iter().flat_map(|s| s.inner.iter().map(|i| (i.state + 7, i.unknown + 6, 6)));
-        wrenches.chain(inner)
+        let numbers = self.layout.gears.iter().chain(self.layout.ropes.iter().flatten());
+        wrenches.chain(inner).chain(numbers.map(|slot| (slot.state, slot.unknown, 1)))
     }
 }
 

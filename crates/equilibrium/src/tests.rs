@@ -116,6 +116,7 @@ fn everything() -> Model {
         to: Attachment::on_beam(on(2, 1.0)),
         law: SpringLaw::Linear { stiffness: 0.8, rest_length: None },
     });
+    add_mounts_couplings_and_cables(&mut m);
     let load = |name: &str, target, frame| Load {
         name: name.into(),
         target,
@@ -131,6 +132,56 @@ fn everything() -> Model {
     m.loads.push(load("l5", LoadTarget::Beam(on(3, 0.0)), LoadFrame::Local));
     m.masses.push(PointMass { name: "m".into(), point: on(3, 0.6), mass: 0.3 });
     m
+}
+
+/// Joints of every other kind, between bodies, beams and ground, beams held by beams, gears and cables.
+fn add_mounts_couplings_and_cables(m: &mut Model) {
+    let on = |beam: usize, at: f64| Mount::Beam(BeamPoint { beam: BeamId(beam), at: At::Fraction(at) });
+    let place = Pose::new(exp(&Vector3::new(-0.2, 0.1, 0.4)), Vector3::new(0.1, -0.2, 0.3));
+    let mut joint = |name: &str, parent, child, kind, spare: f64| {
+        let mut law = JointLaw::free(kind, Vector3::new(0.8, 0.0, 0.6));
+        for (i, c) in law.coordinates.iter_mut().enumerate() {
+            c.stiffness = 0.3 + 0.1 * i as f64;
+            c.rest = 0.1 * i as f64 - spare;
+            c.drive = Drive::Free { effort: 0.05 };
+        }
+        m.joints.push(Joint {
+            name: name.into(),
+            parent: Frame { mount: parent, pose: place },
+            child,
+            child_pose: Some(place.inverse()),
+            law,
+        });
+    };
+    let body = |i: usize| Mount::Body(BodyId(i));
+    joint("plane", body(1), on(2, 1.0), JointKind::Planar, 0.2);
+    joint("cross", Mount::Ground, on(3, 0.5), JointKind::Universal, 0.1);
+    joint("sleeve", body(2), on(0, 0.7), JointKind::Cylindrical, 0.3);
+    joint("bushing", on(1, 0.25), on(2, 0.8), JointKind::Free, 0.1);
+    let sleeve = JointId(m.joints.len() - 2);
+    let plane = JointId(m.joints.len() - 4);
+    let crank = JointId(4);
+    let term = |joint, coordinate, factor| CouplingTerm { joint, coordinate, factor };
+    m.couplings.push(Coupling {
+        name: "mesh".into(),
+        terms: vec![term(sleeve, 0, 0.4), term(plane, 1, -1.5), term(crank, 0, 0.7)],
+        offset: 0.3,
+    });
+    // Beams held by a beam, at its middle and where it is held itself.
+    let hold = |mount, kind| Some(End { placement: Some(place), ..end(mount, None, kind, 0.6) });
+    m.beams.push(beam("branch", hold(on(0, 0.7), JointKind::Universal), hold(body(3), JointKind::Free)));
+    m.beams.push(beam("twig", hold(on(0, 1.0), JointKind::Weld), None));
+    m.beams.push(beam("leaf", hold(on(1, 0.0), JointKind::Planar), None));
+    let guide = |mount, y| Guide::Point(Attachment { mount, point: Vector3::new(0.1, y, -0.2) });
+    for (name, law) in [("pulled", CableLaw::Tension(0.8)), ("held", CableLaw::Length(3.0))] {
+        let route = vec![
+            guide(Mount::Ground, 2.0),
+            guide(on(1, 0.25), 0.1),
+            guide(body(2), 0.0),
+            guide(body(1), 0.4),
+        ];
+        m.cables.push(Cable { name: name.into(), route, law });
+    }
 }
 
 /// A state away from every solution, the same at each call.

@@ -46,6 +46,19 @@ impl LinearSpring {
     }
 }
 
+/// A line under a tension that does not depend on its length: force T u, tangent T/ℓ (I - u uᵀ). None when the
+/// ends coincide.
+pub fn constant_tension(tension: f64, ends: &[Vector3<f64>; 2]) -> Option<SpringForce> {
+    let span = ends[1] - ends[0];
+    let length = span.norm();
+    if length == 0.0 {
+        return None;
+    }
+    let u = span / length;
+    let tangent = (Matrix3::identity() - u * u.transpose()) * (tension / length);
+    Some(SpringForce { length, tension, force: u * tension, tangent })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,0 +1,91 @@
+//! The first segment of a span, with its derivatives along the unknowns that its start depends on.
+//!
+//! Nodes and coordinates act through the start's pose alone. So the kernel carries at most the derivatives along
+//! the six motions of that pose and the six numbers of the wrench, and the rest is their combination. Where nothing along
+//! the segment has a direction of its own (no dead load), not even the motions are carried: a rod that is moved
+//! with its wrench moves as a whole, so the change with the wrench standing still is the rigid motion less what turning
+//! the wrench does.
+
+use crate::assembly::Held;
+use crate::mesh::Stretch;
+use crate::shooting::{Column, SegmentEnd, carry_columns, plain};
+use crate::system::Equilibrium;
+use flexura_spatial::{Twist, Vector3, Wrench};
+
+type V = Vector3<f64>;
+
+impl Equilibrium {
+    /// Carries the first segment of a span: `end` holds its state and its derivatives along the head unknowns.
+    pub(crate) fn carry_head(
+        &self,
+        span: usize,
+        held: &Held,
+        wrench: &Wrench,
+        segment: &[Stretch],
+        end: &mut SegmentEnd,
+    ) {
+        let jumps = &self.lowered.spans[span].jumps;
+        let first = &self.meshes[span].first_jumps;
+        let wrenches = self.layout.spans[span].wrench.count;
+        let motions = held.motions();
+        let start = plain(&held.target, wrench);
+        if motions == 0 {
+            end.seed(12 - wrenches);
+            carry_columns(segment, jumps, first, self.load, &start, end);
+            return;
+        }
+        let dead = |list: &[usize]| list.iter().any(|&j| jumps[j].load.dead != Wrench::zero());
+        let directed = dead(first)
+            || segment.iter().any(|stretch| {
+                let loads = &stretch.piece.loads;
+                dead(&stretch.jumps)
+                    || loads.iter().any(|l| l.dead_force != [0.0; 3] || l.dead_moment != [0.0; 3])
+            });
+        let mut columns = [[0.0; 12]; crate::shooting::MAX_COLUMNS];
+        if directed {
+            end.seed(0);
+            carry_columns(segment, jumps, first, self.load, &start, end);
+            for (i, column) in columns.iter_mut().enumerate().take(motions) {
+                let motion = held.motion(i);
+                let twist = [motion.angular, motion.linear];
+                *column = combine(&end.columns[..6], |k| twist[k / 3][k % 3]);
+            }
+        } else {
+            end.seed(6);
+            carry_columns(segment, jumps, first, self.load, &start, end);
+            let state = &end.state;
+            let (reach, force, moment) =
+                (V::from(state.position) - held.target.position, V::from(state.force), V::from(state.moment));
+            for (i, column) in columns.iter_mut().enumerate().take(motions) {
+                let Twist { angular, linear } = held.motion(i);
+                let back = [-angular.cross(&wrench.force), -angular.cross(&wrench.moment)];
+                *column = combine(&end.columns[..6], |k| back[k / 3][k % 3]);
+                let rigid =
+                    [angular, linear + angular.cross(&reach), angular.cross(&force), angular.cross(&moment)];
+                for (k, value) in column.iter_mut().enumerate() {
+                    *value += rigid[k / 3][k % 3];
+                }
+            }
+        }
+        // Of a wrench whose force is known only the moment is an unknown; it stands last.
+        let carried = end.count;
+        for i in 0..wrenches {
+            columns[motions + i] = end.columns[carried - wrenches + i];
+        }
+        end.columns = columns;
+        end.count = motions + wrenches;
+    }
+}
+
+fn combine(columns: &[Column], factor: impl Fn(usize) -> f64) -> Column {
+    let mut sum = [0.0; 12];
+    for (k, column) in columns.iter().enumerate() {
+        let factor = factor(k);
+        if factor != 0.0 {
+            for (to, from) in sum.iter_mut().zip(column) {
+                *to += factor * from;
+            }
+        }
+    }
+    sum
+}

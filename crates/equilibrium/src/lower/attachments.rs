@@ -1,0 +1,142 @@
+//! Joints, couplings, springs and cables between nodes.
+
+use super::{Carrier, Gear, JointOrigin, Link, Lowered, NodeJoint, Rope, RopeLaw, SNUG, length_text};
+use crate::coordinates::Coordinates;
+use crate::error::ProblemError;
+use flexura_mechanics::joint::Kinematics;
+use flexura_mechanics::spring::LinearSpring;
+use flexura_model::{Attachment, Cable, CableLaw, Coupling, Guide, Model, Spring, SpringLaw};
+use flexura_spatial::Vector3;
+
+pub(super) fn lower_joint(model: &Model, lowered: &mut Lowered, index: usize) {
+    let joint = &model.joints[index];
+    let parent = Carrier {
+        node: lowered.node_of(joint.parent.mount),
+        frame: lowered.scale.pose_in(&joint.parent.pose),
+    };
+    let fixed = lowered.carrier_pose(&parent);
+    let child_node = lowered.node_of(joint.child);
+    let frame = match &joint.child_pose {
+        Some(pose) => lowered.scale.pose_in(pose),
+        None => lowered.initial(child_node).inverse() * fixed,
+    };
+    let child = Carrier { node: child_node, frame };
+    let offset = fixed.inverse() * lowered.carrier_pose(&child);
+    let coordinates = Coordinates::new(&joint.law, &lowered.scale, &offset);
+    let mismatch = (coordinates.joint.pose(&coordinates.initial).inverse() * offset).log();
+    if mismatch.linear.norm() > SNUG || mismatch.angular.norm() > SNUG {
+        lowered.warnings.push(format!(
+            "joint.{}: its two frames are {} and {:.4} deg apart in the initial poses; they are brought together",
+            joint.name,
+            length_text(mismatch.linear.norm() * lowered.scale.length),
+            mismatch.angular.norm().to_degrees(),
+        ));
+    }
+    lowered.joints.push(NodeJoint {
+        origin: JointOrigin::Joint(index),
+        parent,
+        child,
+        coordinates,
+        mismatch,
+    });
+}
+
+pub(super) fn lower_coupling(
+    model: &Model,
+    lowered: &mut Lowered,
+    coupling: &Coupling,
+) -> Result<(), ProblemError> {
+    let terms = || coupling.terms.iter().map(|t| (t.joint.0, t.coordinate, t.factor));
+    let units = |joint: usize, coordinate: usize| lowered.joints[joint].coordinates.units[coordinate];
+    let unit = terms().map(|(j, c, factor)| (factor * units(j, c)).abs()).fold(0.0, f64::max);
+    if unit == 0.0 {
+        return Err(ProblemError::new(
+            format!("coupling.{}", coupling.name),
+            "all its factors are zero",
+            "give each coordinate a factor",
+        ));
+    }
+    let free = terms().any(|(j, c, _)| lowered.joints[j].coordinates.unknown_of(c).is_some());
+    if !free {
+        let names: Vec<String> = terms().map(|(j, ..)| format!("joint.{}", model.joints[j].name)).collect();
+        return Err(ProblemError::new(
+            format!("coupling.{}", coupling.name),
+            format!("all its coordinates are driven: {}", names.join(", ")),
+            "leave one of them free",
+        ));
+    }
+    let terms: Vec<_> = terms().map(|(j, c, factor)| (j, c, factor * units(j, c) / unit)).collect();
+    let at_rest = terms
+        .iter()
+        .map(|(j, c, factor)| {
+            let coordinates = &lowered.joints[*j].coordinates;
+            factor * coordinates.joint.coordinates(&coordinates.initial)[*c]
+        })
+        .sum();
+    lowered.gears.push(Gear { terms, offset: [at_rest, coupling.offset / unit], unit });
+    Ok(())
+}
+
+fn place(lowered: &Lowered, attachment: &Attachment) -> (Option<usize>, Vector3<f64>) {
+    (lowered.node_of(attachment.mount), attachment.point / lowered.scale.length)
+}
+
+fn distance(lowered: &Lowered, ends: &[(Option<usize>, Vector3<f64>); 2]) -> f64 {
+    let [a, b] = ends.map(|(node, point)| lowered.initial(node).point(&point));
+    (b - a).norm()
+}
+
+pub(super) fn lower_spring(lowered: &mut Lowered, spring: &Spring) -> Result<(), ProblemError> {
+    let scale = lowered.scale;
+    let ends = [place(lowered, &spring.from), place(lowered, &spring.to)];
+    let initial_length = distance(lowered, &ends);
+    let SpringLaw::Linear { stiffness, rest_length } = spring.law;
+    if initial_length < 1e-12 {
+        return Err(ProblemError::new(
+            format!("spring.{}", spring.name),
+            "has length zero: its two ends coincide, so it has no direction",
+            "move `from` or `to`",
+        ));
+    }
+    let law = LinearSpring {
+        stiffness: stiffness * scale.length / scale.force,
+        rest_length: rest_length.map_or(initial_length, |l| l / scale.length),
+    };
+    lowered.springs.push(Link { ends, law, initial_length });
+    Ok(())
+}
+
+pub(super) fn lower_cable(lowered: &mut Lowered, cable: &Cable) -> Result<(), ProblemError> {
+    let scale = lowered.scale;
+    let path = format!("cable.{}", cable.name);
+    let mut points = Vec::new();
+    for guide in &cable.route {
+        match guide {
+            Guide::Point(attachment) => points.push(place(lowered, attachment)),
+            Guide::Channel { .. } => todo!(),
+        }
+    }
+    let lines: Vec<_> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    let mut length = 0.0;
+    for (i, line) in lines.iter().enumerate() {
+        let distance = distance(lowered, line);
+        if distance < 1e-12 {
+            return Err(ProblemError::new(
+                format!("{path}.route"),
+                format!(
+                    "the guides {} and {} coincide, so that the cable has no direction between them",
+                    i + 1,
+                    i + 2
+                ),
+                "move one of them",
+            ));
+        }
+        length += distance;
+    }
+    let law = match cable.law {
+        CableLaw::Tension(tension) => RopeLaw::Tension(tension / scale.force),
+        CableLaw::Length(wanted) => RopeLaw::Length([length, wanted / scale.length]),
+    };
+    lowered.ropes.push(Rope { lines, law });
+    Ok(())
+}

@@ -1,0 +1,291 @@
+//! Model -> nodes (bodies and hubs), spans (beams between them), joints, springs.
+//!
+//! A beam is one span, unless something that depends on another part holds on to it: then a hub, a massless
+//! node of six coordinates, is put there and the beam becomes two spans welded to it. Where the beam itself is held
+//! at that very place, the span is welded to the hub and the hold becomes a joint of the hub. So every coupling
+//! acts on nodes, and a span only ever carries loads that depend on its own section.
+
+mod attachments;
+mod spans;
+
+use crate::beam::BeamLaw;
+use crate::coordinates::Coordinates;
+use crate::error::ProblemError;
+use crate::scale::Scale;
+use flexura_mechanics::load::PointLoad;
+use flexura_mechanics::spring::LinearSpring;
+use flexura_model::{BeamId, BeamPoint, LoadFrame, LoadTarget, Model, Mount, SpringLaw};
+use flexura_spatial::{Pose, Twist, Vector3, Wrench};
+
+/// What a node stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum NodeOrigin {
+    Body(usize),
+    Hub { beam: usize, s: f64 },
+}
+
+/// Something rigid with six coordinates.
+#[derive(Clone, Debug)]
+pub(crate) struct Node {
+    pub origin: NodeOrigin,
+    pub initial: Pose,
+    /// Point in the node's axes, what acts there, and which load of the model it is.
+    pub loads: Vec<(Vector3<f64>, PointLoad, Option<usize>)>,
+}
+
+/// A frame on a node, or on the ground (None).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Carrier {
+    pub node: Option<usize>,
+    pub frame: Pose,
+}
+
+/// How a span's end is held.
+#[derive(Clone, Debug)]
+pub(crate) struct Hold {
+    pub carrier: Carrier,
+    pub coordinates: Coordinates,
+    /// What is left between the held frame and the span's end at rest; removed as the load grows.
+    pub mismatch: Twist,
+}
+
+/// A point load inside a span.
+#[derive(Clone, Debug)]
+pub(crate) struct Jump {
+    pub s: f64,
+    pub load: PointLoad,
+    pub source: Option<usize>,
+}
+
+/// A stretch of a beam between two nodes, or to a free end.
+#[derive(Clone, Debug)]
+pub(crate) struct Span {
+    pub beam: usize,
+    /// First and last arc length, m.
+    pub s: [f64; 2],
+    pub start: Hold,
+    pub end: Option<Hold>,
+    pub jumps: Vec<Jump>,
+    /// The internal force is known everywhere: the far end is free and every load dead.
+    pub determinate: bool,
+}
+
+/// What a joint between two nodes stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum JointOrigin {
+    Joint(usize),
+    /// The hold of a beam's end at a hub; `true` at its start.
+    Hold {
+        beam: usize,
+        start: bool,
+    },
+}
+
+/// A joint between two nodes.
+#[derive(Clone, Debug)]
+pub(crate) struct NodeJoint {
+    pub origin: JointOrigin,
+    pub parent: Carrier,
+    pub child: Carrier,
+    pub coordinates: Coordinates,
+    pub mismatch: Twist,
+}
+
+/// A spring between two points on nodes.
+#[derive(Clone, Debug)]
+pub(crate) struct Link {
+    pub ends: [(Option<usize>, Vector3<f64>); 2],
+    pub law: LinearSpring,
+    pub initial_length: f64,
+}
+
+/// A linear relation between joint coordinates, Σ factor q = offset, nondimensional; the joints of the model come
+/// first among those of the lowered one.
+#[derive(Clone, Debug)]
+pub(crate) struct Gear {
+    /// Joint, coordinate, factor.
+    pub terms: Vec<(usize, usize, f64)>,
+    /// Σ factor q at rest, and what it is to be.
+    pub offset: [f64; 2],
+    /// What the factors were divided by, SI: the largest of factor times unit of the coordinate.
+    pub unit: f64,
+}
+
+/// What is given of a cable, nondimensional.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum RopeLaw {
+    Tension(f64),
+    /// Length at rest and length wanted.
+    Length([f64; 2]),
+}
+
+/// A cable: straight lines between points on nodes, all under one tension.
+#[derive(Clone, Debug)]
+pub(crate) struct Rope {
+    pub lines: Vec<[(Option<usize>, Vector3<f64>); 2]>,
+    pub law: RopeLaw,
+}
+
+/// The lowered model; numbers nondimensional but for arc lengths.
+#[derive(Clone, Debug)]
+pub(crate) struct Lowered {
+    pub scale: Scale,
+    pub beams: Vec<BeamLaw>,
+    /// Start frame of each beam in the undeformed mechanism.
+    pub beam_rest: Vec<Pose>,
+    pub nodes: Vec<Node>,
+    pub spans: Vec<Span>,
+    /// Those of the model in its order, then holds at hubs.
+    pub joints: Vec<NodeJoint>,
+    pub gears: Vec<Gear>,
+    pub springs: Vec<Link>,
+    pub ropes: Vec<Rope>,
+    /// For each beam the hubs along it: arc length (m) and node.
+    pub hubs: Vec<Vec<(f64, usize)>>,
+    pub warnings: Vec<String>,
+}
+
+/// A pose difference too small to be meant.
+const SNUG: f64 = 1e-9;
+
+/// Lowers a model. `probes` are places on beams whose motion is asked for; `scale` is kept if given, so that states
+/// of neighbouring models can be compared.
+pub(crate) fn lower(
+    model: &Model,
+    probes: &[BeamPoint],
+    scale: Option<Scale>,
+) -> Result<Lowered, ProblemError> {
+    let mut beams =
+        (0..model.beams.len()).map(|i| BeamLaw::new(model, BeamId(i))).collect::<Result<Vec<_>, _>>()?;
+    let scale = match scale {
+        Some(scale) => scale,
+        None => scale_of(model, &beams)?,
+    };
+    for beam in &mut beams {
+        beam.set_scale(scale);
+    }
+    let mut lowered = Lowered {
+        scale,
+        beams,
+        beam_rest: Vec::new(),
+        nodes: Vec::new(),
+        spans: Vec::new(),
+        joints: Vec::new(),
+        gears: Vec::new(),
+        springs: Vec::new(),
+        ropes: Vec::new(),
+        hubs: Vec::new(),
+        warnings: Vec::new(),
+    };
+    for (i, body) in model.bodies.iter().enumerate() {
+        let mut loads = Vec::new();
+        let weight = model.gravity * body.mass;
+        if weight != Vector3::zeros() {
+            let dead = scale.wrench_in(&Wrench::new(weight, Vector3::zeros()));
+            let load = PointLoad { dead, follower: Wrench::zero() };
+            loads.push((body.center_of_mass / scale.length, load, None));
+        }
+        lowered.nodes.push(Node { origin: NodeOrigin::Body(i), initial: scale.pose_in(&body.pose), loads });
+    }
+    for (i, load) in model.loads.iter().enumerate() {
+        if let LoadTarget::Body { body, point } = load.target {
+            let wrench = point_load(&scale, load.force, load.moment, load.frame);
+            lowered.nodes[body.0].loads.push((point / scale.length, wrench, Some(i)));
+        }
+    }
+    spans::lay_out(model, &mut lowered)?;
+    spans::place_hubs(model, &mut lowered, probes);
+    for i in 0..model.joints.len() {
+        attachments::lower_joint(model, &mut lowered, i);
+    }
+    for i in 0..model.beams.len() {
+        spans::lower_beam(model, &mut lowered, i);
+    }
+    for coupling in &model.couplings {
+        attachments::lower_coupling(model, &mut lowered, coupling)?;
+    }
+    for spring in &model.springs {
+        attachments::lower_spring(&mut lowered, spring)?;
+    }
+    for cable in &model.cables {
+        attachments::lower_cable(&mut lowered, cable)?;
+    }
+    Ok(lowered)
+}
+
+/// L of the longest beam and EI/L² of its softest stiffness; of the bodies' spread where there is no beam.
+fn scale_of(model: &Model, beams: &[BeamLaw]) -> Result<Scale, ProblemError> {
+    if let Some(longest) = beams.iter().max_by(|a, b| a.length.total_cmp(&b.length)) {
+        let length = longest.length;
+        return Ok(Scale { length, force: longest.stiffness() / (length * length) });
+    }
+    if model.bodies.is_empty() {
+        return Err(ProblemError::new(
+            "beam",
+            "the model has neither a beam nor a body",
+            "add a [beam.<name>] with a section and a start",
+        ));
+    }
+    let spread = model.bodies.iter().map(|b| b.pose.position.norm()).fold(0.0, f64::max);
+    let length = if spread > 0.0 { spread } else { 1.0 };
+    let mut force = model.loads.iter().map(|l| l.force.norm()).fold(0.0, f64::max);
+    for spring in &model.springs {
+        let SpringLaw::Linear { stiffness, .. } = spring.law;
+        force = force.max(stiffness * length);
+    }
+    Ok(Scale { length, force: if force > 0.0 { force } else { 1.0 } })
+}
+
+pub(crate) fn point_load(
+    scale: &Scale,
+    force: Vector3<f64>,
+    moment: Vector3<f64>,
+    frame: LoadFrame,
+) -> PointLoad {
+    let wrench = scale.wrench_in(&Wrench::new(force, moment));
+    match frame {
+        LoadFrame::Global => PointLoad { dead: wrench, follower: Wrench::zero() },
+        LoadFrame::Local => PointLoad { dead: Wrench::zero(), follower: wrench },
+    }
+}
+
+impl Lowered {
+    /// The node of what carries a frame; None for the ground.
+    fn node_of(&self, mount: Mount) -> Option<usize> {
+        match mount {
+            Mount::Ground => None,
+            Mount::Body(id) => Some(id.0),
+            Mount::Beam(point) => self.hub_at(&point),
+        }
+    }
+
+    /// The hub at a place on a beam.
+    pub fn hub_at(&self, point: &BeamPoint) -> Option<usize> {
+        let beam = point.beam.0;
+        let length = self.beams[beam].length;
+        let s = point.at.arc_length(length);
+        self.hubs[beam].iter().find(|(hub, _)| near(*hub, s, length)).map(|(_, node)| *node)
+    }
+
+    fn initial(&self, node: Option<usize>) -> Pose {
+        node.map_or(Pose::identity(), |n| self.nodes[n].initial)
+    }
+
+    fn carrier_pose(&self, carrier: &Carrier) -> Pose {
+        self.initial(carrier.node) * carrier.frame
+    }
+
+    /// Stress-free pose of the section at `s`, nondimensional, global.
+    fn rest_pose(&self, beam: usize, s: f64) -> Pose {
+        self.beam_rest[beam] * self.scale.pose_in(&self.beams[beam].shape.pose(s))
+    }
+}
+
+/// Are two arc lengths on a beam the same place?
+fn near(a: f64, b: f64, length: f64) -> bool {
+    (a - b).abs() < 1e-12 * length
+}
+
+pub(crate) fn length_text(metres: f64) -> String {
+    if metres >= 0.1 { format!("{metres:.6} m") } else { format!("{:.6} mm", metres * 1e3) }
+}
