@@ -9,6 +9,16 @@ use flexura_spatial::{Vector3, Wrench, log};
 
 type V = Vector3<f64>;
 
+/// By how much a joint's two frames are turned and shifted against each other.
+pub(crate) fn closure_error(problem: &Equilibrium, index: usize) -> (V, V) {
+    let joint = &problem.lowered.joints[index];
+    let slots = &problem.layout.joints[index];
+    let reference = HoldRef { coordinates: &joint.coordinates, mismatch: &joint.mismatch };
+    let held = problem.held(&joint.parent, &reference, &problem.configuration(&slots.coordinates));
+    let child = problem.node_pose(joint.child.node) * joint.child.frame;
+    (log(&(child.rotation * held.target.rotation.inverse())), child.position - held.target.position)
+}
+
 impl Equilibrium {
     pub(crate) fn evaluate_joint(&self, index: usize, sink: &mut Sink<'_>) {
         let joint = &self.lowered.joints[index];

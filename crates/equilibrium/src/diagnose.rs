@@ -3,6 +3,7 @@
 use crate::error::ProblemError;
 use crate::lower::{JointOrigin, NodeOrigin};
 use crate::system::Equilibrium;
+use flexura_model::CoordinateKind;
 use flexura_nonlinear::{Breakdown, System};
 use nalgebra::DMatrix;
 
@@ -19,6 +20,9 @@ pub struct Census {
 
 /// Singular values below this part of the largest count as zero.
 const RANK: f64 = 1e-11;
+
+/// Part of a null vector from which something counts as moved by it.
+pub(crate) const SEEN: f64 = 1e-6;
 
 /// Width over thickness from which a strip counts as wide.
 const WIDE: f64 = 10.0;
@@ -131,6 +135,7 @@ impl Equilibrium {
         self.set_load(0.0);
         match self.linearise() {
             Ok(()) => Ok(()),
+            Err(Breakdown::Singular) if self.find_slack() => Ok(()),
             Err(Breakdown::Singular) => Err(self.explain_singular()),
             Err(Breakdown::NotFinite) => Err(ProblemError::new(
                 "model",
@@ -140,27 +145,24 @@ impl Equilibrium {
         }
     }
 
-    /// The null space of the tangent, in the model's words.
-    pub(crate) fn explain_singular(&mut self) -> ProblemError {
-        // The factorised matrix is spoilt; evaluate it once more and leave it whole.
+    /// An orthonormal basis of the null space of the tangent at the present state.
+    pub(crate) fn null_space(&mut self) -> Vec<Vec<f64>> {
+        // A factorised matrix is spoilt; evaluate it once more and leave it whole.
         let _ = self.evaluate(true);
         let n = self.layout.interface;
         let matrix = DMatrix::from_fn(n, n, |i, j| self.tangent.row(i)[j]);
-        let svd = matrix.svd(false, true);
-        let Some(vt) = svd.v_t else { return unnamed() };
-        let largest = svd.singular_values.max();
-        let mut motion = vec![0.0_f64; n];
-        for (k, value) in svd.singular_values.iter().enumerate() {
-            if *value <= RANK * largest {
-                for j in 0..n {
-                    motion[j] = motion[j].max(vt[(k, j)].abs());
-                }
-            }
-        }
+        null_space_of(matrix)
+    }
+
+    /// The null space of the tangent, in the model's words.
+    pub(crate) fn explain_singular(&mut self) -> ProblemError {
+        let motion = self.null_space().into_iter().fold(vec![0.0_f64; self.layout.interface], |mut m, v| {
+            m.iter_mut().zip(&v).for_each(|(m, v)| *m = m.max(v.abs()));
+            m
+        });
         let part = |unknown: usize, count: usize| {
             motion[unknown..unknown + count].iter().fold(0.0_f64, |m, v| m.max(*v))
         };
-        const SEEN: f64 = 1e-6;
         let mut loose = Vec::new();
         for (i, slot) in self.layout.nodes.iter().enumerate() {
             if part(slot.unknown, 6) > SEEN {
@@ -218,26 +220,60 @@ impl Equilibrium {
         unnamed()
     }
 
-    /// Warnings about the state: coordinates beyond their limits, spins that needed holding.
+    /// Warnings about the state: coordinates beyond their limits, cables that push.
     pub(crate) fn state_warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
-        for (joint, (lowered, slots)) in
-            self.model.joints.iter().zip(self.lowered.joints.iter().zip(&self.layout.joints))
-        {
-            let configuration = self.configuration(&slots.coordinates);
-            for (i, value, range) in lowered.coordinates.beyond_limits(&configuration) {
+        let spans = self.lowered.spans.iter().zip(&self.layout.spans).enumerate();
+        let holds = spans.flat_map(|(i, (span, slots))| {
+            let end = span
+                .end
+                .as_ref()
+                .map(|end| (format!("{}.end", self.span_name(i)), &end.coordinates, &slots.end));
+            std::iter::once((format!("{}.start", self.span_name(i)), &span.start.coordinates, &slots.start))
+                .chain(end)
+        });
+        let joints = self.lowered.joints.iter().zip(&self.layout.joints).enumerate();
+        let joints =
+            joints.map(|(i, (joint, slots))| (self.joint_name(i), &joint.coordinates, &slots.coordinates));
+        for (name, coordinates, slot) in joints.chain(holds) {
+            let kinds = coordinates.kind.coordinate_kinds();
+            let words = coordinates.kind.coordinate_names();
+            for (i, value, range) in coordinates.beyond_limits(&self.configuration(slot)) {
+                let text = |v: f64| match kinds[i] {
+                    CoordinateKind::Angle => format!("{:.4} deg", v.to_degrees()),
+                    CoordinateKind::Length => crate::lower::length_text(v),
+                };
                 warnings.push(format!(
-                    "joint.{}: coordinate {} is {:.6}, outside its limits {:.6} to {:.6}",
-                    joint.name,
-                    i + 1,
-                    value,
-                    range[0],
-                    range[1]
+                    "{name}: its {} is {}, outside its limits {} and {}",
+                    words[i],
+                    text(value),
+                    text(range[0]),
+                    text(range[1])
+                ));
+            }
+        }
+        for (index, cable) in self.model.cables.iter().enumerate() {
+            let tension = self.tension(index);
+            if tension < 0.0 {
+                warnings.push(format!(
+                    "cable.{}: would have to push with {:.6} N to keep its length; a cable would be slack",
+                    cable.name,
+                    -tension * self.lowered.scale.force
                 ));
             }
         }
         warnings
     }
+}
+
+/// Orthonormal vectors that a square matrix takes to (nearly) nothing.
+pub(crate) fn null_space_of(matrix: DMatrix<f64>) -> Vec<Vec<f64>> {
+    let n = matrix.ncols();
+    let svd = matrix.svd(false, true);
+    let Some(vt) = svd.v_t else { return Vec::new() };
+    let largest = svd.singular_values.max();
+    let small = svd.singular_values.iter().enumerate().filter(|(_, value)| **value <= RANK * largest);
+    small.map(|(k, _)| (0..n).map(|j| vt[(k, j)]).collect()).collect()
 }
 
 fn unnamed() -> ProblemError {

@@ -5,7 +5,9 @@ use crate::system::Equilibrium;
 use flexura_mechanics::joint::Kinematics;
 use flexura_mechanics::rod::advance;
 use flexura_model::ProbeTarget;
-use flexura_solution::{BeamSample, BeamSolution, JointSolution, Solution, SpringSolution, Status, Work};
+use flexura_solution::{
+    BeamSample, BeamSolution, CableSolution, JointSolution, Solution, SpringSolution, Status, Work,
+};
 use flexura_spatial::{Pose, Wrench};
 
 impl Equilibrium {
@@ -13,6 +15,8 @@ impl Equilibrium {
     /// outputs ask for and those where something jumps.
     pub fn solution(&mut self, samples: usize) -> Solution {
         let scale = self.lowered.scale;
+        let residual = self.residual_size();
+        self.least_norm();
         let mut energy = 0.0;
         let mut beams = Vec::with_capacity(self.model.beams.len());
         for beam in 0..self.model.beams.len() {
@@ -22,10 +26,13 @@ impl Equilibrium {
         }
         let bodies = (0..self.model.bodies.len()).map(|i| scale.pose_out(&self.node_pose(Some(i)))).collect();
         let mut joints = Vec::new();
-        for (joint, slots) in self.lowered.joints.iter().zip(&self.layout.joints) {
+        for (index, (joint, slots)) in self.lowered.joints.iter().zip(&self.layout.joints).enumerate() {
             let configuration = self.configuration(&slots.coordinates);
             let wrench = Wrench::new(self.triple(slots.wrench.state), self.triple(slots.wrench.state + 3));
             energy += joint.coordinates.energy(&configuration, self.load) * scale.moment();
+            if index >= self.model.joints.len() {
+                continue;
+            }
             let base = self.node_pose(joint.parent.node) * joint.parent.frame;
             let wrench = scale.wrench_out(&wrench);
             // Hᵀ W = effort - k (q - rest): the effort is what a drive must supply, or the load that was given.
@@ -36,6 +43,7 @@ impl Equilibrium {
                     (base.rotation * h.angular).dot(&wrench.moment)
                         + (base.rotation * h.linear).dot(&wrench.force)
                         + held[i] * scale.moment() / joint.coordinates.units[i]
+                        - self.geared(index, i)
                 })
                 .collect();
             joints.push(JointSolution {
@@ -69,7 +77,7 @@ impl Equilibrium {
             status: Status::Converged,
             reason: None,
             load_fraction: self.load,
-            residual: self.residual_size(),
+            residual,
             error_estimate: 0.0,
             warnings,
             work: Work {
@@ -81,8 +89,8 @@ impl Equilibrium {
             bodies,
             joints,
             springs,
-            couplings: Vec::new(),
-            cables: Vec::new(),
+            couplings: self.multipliers(),
+            cables: self.cables(),
             tangents: Vec::new(),
             sensitivities: None,
             found: Vec::new(),
@@ -91,6 +99,47 @@ impl Equilibrium {
             unstable_directions: None,
             stability_reason: Some("stability is not decided by this version".to_string()),
         }
+    }
+
+    /// λ of every coupling, so that its effort on a coordinate is factor × λ, SI.
+    fn multipliers(&self) -> Vec<f64> {
+        let moment = self.lowered.scale.moment();
+        let gears = self.lowered.gears.iter().zip(&self.layout.gears);
+        gears.map(|(gear, slot)| self.x[slot.state] * moment / gear.unit).collect()
+    }
+
+    /// The effort of couplings on a joint coordinate, SI.
+    fn geared(&self, joint: usize, coordinate: usize) -> f64 {
+        let multipliers = self.multipliers();
+        let terms = self
+            .model
+            .couplings
+            .iter()
+            .zip(&multipliers)
+            .flat_map(|(coupling, multiplier)| coupling.terms.iter().map(move |term| (term, multiplier)));
+        terms
+            .filter(|(term, _)| term.joint.0 == joint && term.coordinate == coordinate)
+            .map(|(term, multiplier)| term.factor * multiplier)
+            .sum()
+    }
+
+    fn cables(&self) -> Vec<CableSolution> {
+        let scale = self.lowered.scale;
+        let mut cables = Vec::with_capacity(self.lowered.ropes.len());
+        for (index, rope) in self.lowered.ropes.iter().enumerate() {
+            let mut course: Vec<flexura_spatial::Vector3<f64>> = Vec::new();
+            let mut length = 0.0;
+            for line in &rope.lines {
+                let ends = line.map(|(node, point)| self.node_pose(node).point(&point) * scale.length);
+                length += (ends[1] - ends[0]).norm();
+                if course.last() != Some(&ends[0]) {
+                    course.push(ends[0]);
+                }
+                course.push(ends[1]);
+            }
+            cables.push(CableSolution { course, length, tension: self.tension(index) * scale.force });
+        }
+        cables
     }
 
     /// Where a beam is sampled, m.

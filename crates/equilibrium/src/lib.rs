@@ -24,10 +24,13 @@ mod head;
 mod layout;
 mod lower;
 mod mesh;
+mod neighbour;
 mod prepare;
+mod redundancy;
 mod scale;
 mod shooting;
 mod system;
+mod tangents;
 #[cfg(test)]
 mod tests;
 

@@ -2,7 +2,7 @@
 
 use crate::beam::BeamLaw;
 use crate::layout::Layout;
-use crate::lower;
+use crate::lower::{Lowered, Span};
 use crate::mesh::{Level, SpanMesh};
 use crate::shooting::{Plain, SegmentEnd, carry_plain, jump};
 use crate::system::{Counts, Equilibrium, write_pose};
@@ -66,7 +66,7 @@ impl Equilibrium {
     }
 
     /// What the given loads lead one to expect along a span.
-    fn expected_level(&self, span: &lower::Span) -> Level {
+    fn expected_level(&self, span: &Span) -> Level {
         let mut level = Level::default();
         let law = &self.lowered.beams[span.beam];
         for j in &span.jumps {
@@ -133,27 +133,9 @@ impl Equilibrium {
         self.meshes.iter().map(SpanMesh::steps).sum()
     }
 
-    /// The internal force at the start of determinate spans: the sum of the dead forces beyond. Distributed
-    /// force is summed with the stepper's own weights, so that it is what the stepper would find.
+    /// Sums the known forces anew, as the mesh or the loads have changed.
     pub(crate) fn sum_known_forces(&mut self) {
-        self.known_force = self
-            .lowered
-            .spans
-            .iter()
-            .zip(&self.meshes)
-            .map(|(span, mesh)| {
-                let mut sum = Vector3::zeros();
-                if span.determinate {
-                    for j in &span.jumps {
-                        sum += j.load.dead.force;
-                    }
-                    for stretch in mesh.stretches() {
-                        sum += crate::accuracy::dead_force(&stretch.piece);
-                    }
-                }
-                sum
-            })
-            .collect();
+        self.known_force = known_forces(&self.lowered, &self.meshes);
     }
 
     /// The state at arc length `s` of a span, starting from the segment that holds it.
@@ -239,6 +221,24 @@ impl Equilibrium {
         }
         true
     }
+}
+
+/// The internal force at the start of determinate spans: the sum of the dead forces beyond. Distributed
+/// force is summed with the stepper's own weights, so that it is what the stepper would find.
+pub(crate) fn known_forces(lowered: &Lowered, meshes: &[SpanMesh]) -> Vec<Vector3<f64>> {
+    let of_span = |(span, mesh): (&Span, &SpanMesh)| {
+        let mut sum = Vector3::zeros();
+        if span.determinate {
+            for j in &span.jumps {
+                sum += j.load.dead.force;
+            }
+            for stretch in mesh.stretches() {
+                sum += crate::accuracy::dead_force(&stretch.piece);
+            }
+        }
+        sum
+    };
+    lowered.spans.iter().zip(meshes).map(of_span).collect()
 }
 
 fn copy(to: &mut [f64], at: usize, from: &[f64], start: usize, count: usize) {

@@ -7,7 +7,7 @@ use crate::lower::{self, Lowered};
 use crate::mesh::{Level, SpanMesh};
 use crate::shooting::{Plain, SegmentEnd};
 use flexura_mechanics::joint::Configuration;
-use flexura_model::{LoadId, LoadTarget, Model};
+use flexura_model::{BeamPoint, LoadId, LoadTarget, Model};
 use flexura_nonlinear::{BLOCK, Breakdown, Chain, Dense, System};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, exp, log};
 
@@ -15,6 +15,8 @@ use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, exp, log};
 #[derive(Clone, Debug)]
 pub struct Equilibrium {
     pub(crate) model: Model,
+    /// Places on beams that have a node because their motion is asked for.
+    pub(crate) probes: Vec<BeamPoint>,
     pub(crate) lowered: Lowered,
     pub(crate) meshes: Vec<SpanMesh>,
     pub(crate) layout: Layout,
@@ -64,9 +66,20 @@ impl Equilibrium {
     /// # Errors
     /// A beam that is held nowhere, a rest shape or section without sound numbers.
     pub fn new(model: &Model) -> Result<Self, ProblemError> {
-        let lowered = lower::lower(model, &[], None)?;
+        Self::with_probes(model, &[])
+    }
+
+    /// The same, with nodes at further places on beams, so that their compliance can be asked for.
+    ///
+    /// # Errors
+    /// As [`Equilibrium::new`].
+    pub fn with_probes(model: &Model, further: &[BeamPoint]) -> Result<Self, ProblemError> {
+        let mut probes = crate::neighbour::probes(model);
+        probes.extend(further);
+        let lowered = lower::lower(model, &probes, None)?;
         let mut this = Self {
             model: model.clone(),
+            probes,
             meshes: Vec::new(),
             layout: Layout::default(),
             x: Vec::new(),

@@ -17,6 +17,8 @@ pub enum Status {
     IterationLimit,
     /// The tangent has no inverse where the study stands.
     Singular,
+    /// A loop that closed at rest does not close under load.
+    Inconsistent,
     /// The wanted accuracy lies below what double precision gives here.
     AccuracyLimit,
 }
@@ -29,6 +31,7 @@ impl Status {
             Status::Stalled => "stalled",
             Status::IterationLimit => "iteration_limit",
             Status::Singular => "singular",
+            Status::Inconsistent => "inconsistent",
             Status::AccuracyLimit => "accuracy_limit",
         }
     }

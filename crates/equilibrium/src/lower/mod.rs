@@ -287,5 +287,5 @@ fn near(a: f64, b: f64, length: f64) -> bool {
 }
 
 pub(crate) fn length_text(metres: f64) -> String {
-    if metres >= 0.1 { format!("{metres:.6} m") } else { format!("{:.6} mm", metres * 1e3) }
+    if metres.abs() >= 0.1 { format!("{metres:.6} m") } else { format!("{:.6} mm", metres * 1e3) }
 }

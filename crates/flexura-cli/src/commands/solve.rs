@@ -119,6 +119,7 @@ fn advice(status: Status) -> &'static str {
         }
         Status::IterationLimit => "the work limit was reached; try a smaller load or a larger --tolerance",
         Status::Singular => "something can move without resistance here; see `flexura check`",
+        Status::Inconsistent => "its joints cannot all be kept; free one, or correct their places and axes",
         Status::AccuracyLimit => "double precision gives no more here; try a larger --tolerance",
     }
 }

@@ -1,0 +1,96 @@
+//! The same mechanism with slightly other numbers: the state stays, the law under it changes.
+
+use crate::error::ProblemError;
+use crate::lower::{self, Lowered};
+use crate::mesh::SpanMesh;
+use crate::system::Equilibrium;
+use flexura_model::{BeamPoint, Model, ProbeTarget, Quantity};
+use flexura_nonlinear::System;
+use flexura_spatial::Vector3;
+use std::cell::Cell;
+
+/// The law of a model in the units, and on the mesh, of the problem that it was made for.
+#[derive(Clone, Debug)]
+pub struct Law {
+    model: Model,
+    lowered: Lowered,
+    meshes: Vec<SpanMesh>,
+    known_force: Vec<Vector3<f64>>,
+}
+
+/// Places on beams whose compliance an output asks for.
+pub(crate) fn probes(model: &Model) -> Vec<BeamPoint> {
+    let all = model.outputs.iter().chain(model.targets.iter().map(|t| &t.output));
+    all.flat_map(|output| &output.probes)
+        .filter(|probe| {
+            matches!(
+                probe.quantity,
+                Quantity::Compliance | Quantity::Stiffness | Quantity::CenterOfCompliance
+            )
+        })
+        .filter_map(|probe| match probe.target {
+            ProbeTarget::Beam(beam, at) => Some(BeamPoint { beam, at }),
+            _ => None,
+        })
+        .collect()
+}
+
+impl Equilibrium {
+    /// The law of a neighbouring model, in this problem's units and on its mesh, so that [`Equilibrium::exchange`] can
+    /// put it under the present state.
+    ///
+    /// # Errors
+    /// A model that cannot be prepared, or one that is made of other parts.
+    pub fn neighbour(&self, model: &Model) -> Result<Law, ProblemError> {
+        let mut lowered = lower::lower(model, &self.probes, Some(self.lowered.scale))?;
+        lowered.warnings.clone_from(&self.lowered.warnings);
+        let alike = lowered.nodes.len() == self.lowered.nodes.len()
+            && lowered.joints.len() == self.lowered.joints.len()
+            && lowered.gears.len() == self.lowered.gears.len()
+            && lowered.ropes.len() == self.lowered.ropes.len()
+            && lowered.spans.len() == self.lowered.spans.len()
+            && lowered.spans.iter().zip(&self.lowered.spans).all(|(a, b)| {
+                a.determinate == b.determinate
+                    && a.start.coordinates.unknowns() == b.start.coordinates.unknowns()
+                    && a.end.as_ref().map(|e| e.coordinates.unknowns())
+                        == b.end.as_ref().map(|e| e.coordinates.unknowns())
+            });
+        let mut meshes = Vec::with_capacity(self.meshes.len());
+        let mut fits = alike;
+        if alike {
+            for (span, mesh) in lowered.spans.iter().zip(&self.meshes) {
+                let law = &lowered.beams[span.beam];
+                let steps: Vec<usize> = mesh.stretches().map(|s| s.piece.steps).collect();
+                let next = Cell::new(0);
+                let new = SpanMesh::build(law, span, mesh.segments.len(), |_| {
+                    next.set(next.get() + 1);
+                    steps.get(next.get() - 1).copied().unwrap_or(1)
+                });
+                fits &= next.get() == steps.len();
+                meshes.push(new);
+            }
+        }
+        if !fits {
+            return Err(ProblemError::new(
+                "model",
+                "changes its parts when a parameter changes a little: something appears, vanishes or meets",
+                "move loads, springs and breaks of sections apart, so that they keep their order",
+            ));
+        }
+        let mut law = Law { model: model.clone(), lowered, meshes, known_force: Vec::new() };
+        law.known_force = crate::prepare::known_forces(&law.lowered, &law.meshes);
+        Ok(law)
+    }
+
+    /// Puts another law under the present state and returns the one that was there. Driven coordinates move to where
+    /// the new law wants them; everything else stays.
+    pub fn exchange(&mut self, mut law: Law) -> Law {
+        std::mem::swap(&mut self.model, &mut law.model);
+        std::mem::swap(&mut self.lowered, &mut law.lowered);
+        std::mem::swap(&mut self.meshes, &mut law.meshes);
+        std::mem::swap(&mut self.known_force, &mut law.known_force);
+        let load = self.load;
+        self.set_load(load);
+        law
+    }
+}
