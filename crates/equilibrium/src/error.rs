@@ -13,7 +13,8 @@ pub struct ProblemError {
 }
 
 impl ProblemError {
-    pub(crate) fn new(path: impl Into<String>, message: impl Into<String>, hint: impl Into<String>) -> Self {
+    /// An error with its place in the words of the model file, what is wrong, and what to do.
+    pub fn new(path: impl Into<String>, message: impl Into<String>, hint: impl Into<String>) -> Self {
         Self { path: path.into(), message: message.into(), hint: hint.into() }
     }
 }

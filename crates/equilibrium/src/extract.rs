@@ -10,17 +10,26 @@ use flexura_solution::{
 };
 use flexura_spatial::{Pose, Wrench};
 
+/// Nodes and weights of three-point Gauss quadrature on [0, 1].
+const GAUSS: [(f64, f64); 3] =
+    [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+
 impl Equilibrium {
     /// Reads the present state off. `samples` places along each beam, ends included, besides those that
     /// outputs ask for and those where something jumps.
     pub fn solution(&mut self, samples: usize) -> Solution {
+        self.sampled(samples, true)
+    }
+
+    /// The same; the beams' strain energy, which takes an integration of its own, is left out unless asked for.
+    pub fn sampled(&mut self, samples: usize, energies: bool) -> Solution {
         let scale = self.lowered.scale;
         let residual = self.residual_size();
         self.least_norm();
         let mut energy = 0.0;
         let mut beams = Vec::with_capacity(self.model.beams.len());
         for beam in 0..self.model.beams.len() {
-            let (solution, strain_energy) = self.sample_beam(beam, samples.max(2));
+            let (solution, strain_energy) = self.sample_beam(beam, samples.max(2), energies);
             energy += strain_energy;
             beams.push(solution);
         }
@@ -146,7 +155,7 @@ impl Equilibrium {
     fn places(&self, beam: usize, samples: usize) -> Vec<f64> {
         let length = self.lowered.beams[beam].length;
         let mut places: Vec<f64> = (0..samples).map(|i| length * i as f64 / (samples - 1) as f64).collect();
-        for output in &self.model.outputs {
+        for output in self.model.outputs.iter().chain(self.model.targets.iter().map(|t| &t.output)) {
             for probe in &output.probes {
                 if let ProbeTarget::Beam(id, at) = probe.target
                     && id.0 == beam
@@ -169,7 +178,7 @@ impl Equilibrium {
     }
 
     /// Samples of one beam and its strain energy in joules.
-    fn sample_beam(&self, beam: usize, samples: usize) -> (BeamSolution, f64) {
+    fn sample_beam(&self, beam: usize, samples: usize, energies: bool) -> (BeamSolution, f64) {
         let law = &self.lowered.beams[beam];
         let places = self.places(beam, samples);
         let tiny = 1e-12 * law.length;
@@ -204,11 +213,15 @@ impl Equilibrium {
                         places.iter().filter(|s| **s > stretch.s[0] + tiny && **s <= stretch.s[1] + tiny);
                     for &b in inside {
                         let b = b.min(stretch.s[1]);
-                        // Two-point Gauss for the energy of this interval.
-                        for node in [0.5 - 0.5 / 3.0_f64.sqrt(), 0.5 + 0.5 / 3.0_f64.sqrt()] {
-                            let s = a + (b - a) * node;
-                            to(s, &mut state);
-                            energy += 0.5 * (b - a) * self.energy_density(beam, s, &state);
+                        // Energy by three-point Gauss on parts of at most a quarter of a step.
+                        let parts = if energies { ((b - a) * density * 4.0).ceil().max(1.0) } else { 0.0 };
+                        for part in 0..parts as usize {
+                            let h = (b - a) / parts;
+                            for (node, weight) in GAUSS {
+                                let s = a + h * (part as f64 + node);
+                                to(s, &mut state);
+                                energy += h * weight * self.energy_density(beam, s, &state);
+                            }
                         }
                         to(b, &mut state);
                         out.samples.push(self.sample(beam, b, &state));

@@ -34,6 +34,9 @@ mod tangents;
 #[cfg(test)]
 mod tests;
 
+pub use neighbour::Law;
+pub use tangents::CENTRAL;
+
 pub use accuracy::Finish;
 pub use diagnose::Census;
 pub use error::ProblemError;

@@ -117,6 +117,11 @@ impl Equilibrium {
         self.counts
     }
 
+    /// Length (m) and force (N) that count as one.
+    pub fn units(&self) -> (f64, f64) {
+        (self.lowered.scale.length, self.lowered.scale.force)
+    }
+
     /// Warnings about the model.
     pub fn warnings(&self) -> &[String] {
         &self.lowered.warnings

@@ -103,7 +103,10 @@
 //! it came. [`post::evaluate`] gives stresses, safety factors and outputs; [`output::document`] the result
 //! document; [`output::beams_csv`], [`output::model_vtp`] and [`output::shape_svg`] the files.
 
+mod family;
 mod solve_file;
+
+pub use family::FileFamily;
 
 pub use flexura_expression as expression;
 pub use flexura_geometry as geometry;
@@ -114,6 +117,7 @@ pub use flexura_post as post;
 pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;
 pub use flexura_study::{
-    Census, Equilibrium, Options, Outcome, Prepared, ProblemError, Progress, check, solve,
+    Census, Equilibrium, Family, Options, Outcome, Prepared, ProblemError, Progress, SensitivityError, check,
+    solve, solve_family,
 };
 pub use solve_file::{Error, Solved, solve_file};

@@ -70,7 +70,8 @@ impl std::fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// Reads a model file, overrides parameters (name, value with an optional unit) and solves it.
+/// Reads a model file, overrides parameters (name, value with an optional unit) and solves it, forward or
+/// inverse.
 ///
 /// # Errors
 /// [`Error`], when the file or the model is wrong. A solve that does not converge comes back as a solution
@@ -82,7 +83,9 @@ pub fn solve_file(
 ) -> Result<Solved, Error> {
     let file = Document::read(path.as_ref()).map_err(Error::File)?;
     let model = file.model(overrides).map_err(Error::File)?;
-    let solution = crate::solve(&model, options, &mut |_| {}).map_err(Error::Model)?;
+    let mut family = crate::FileFamily::new(&file, overrides, &model);
+    let (solution, model) =
+        crate::solve_family(&model, &mut family, options, &mut |_| {}).map_err(Error::Model)?;
     let evaluation = post::evaluate(&model, &solution).map_err(Error::Output)?;
     Ok(Solved { model, solution, evaluation })
 }

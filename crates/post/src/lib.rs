@@ -4,17 +4,19 @@
 //! energy is not computed but taken over from the solution, which integrates it with the beam.
 
 mod outputs;
+mod screw;
 mod stress;
 mod summary;
 
 pub use flexura_geometry::SectionStress;
 pub use outputs::{OutputResult, OutputValue, evaluate_outputs};
+pub use screw::{Screw, center_of_compliance, finite_screw, instantaneous_screw};
 pub use stress::{BeamPeaks, BeamStress, Peak, beam_stress};
 pub use summary::{
     BeamSummary, BodySummary, CoordinateSummary, JointSummary, OutputSummary, Scales, Summary, summarise,
 };
 
-use flexura_model::Model;
+use flexura_model::{Model, Output, ProbeTarget, Quantity};
 use flexura_solution::Solution;
 
 /// Everything that is derived from a solution, in the order of the model's lists.
@@ -24,6 +26,47 @@ pub struct Evaluation {
     pub beams: Vec<Option<BeamStress>>,
     /// One for each output.
     pub outputs: Vec<OutputResult>,
+}
+
+/// The outputs of a solution alone; stresses only where an output asks for them.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn outputs(model: &Model, solution: &Solution) -> Result<Vec<OutputResult>, PostError> {
+    outputs_of(model, solution, model.outputs.iter())
+}
+
+/// The values of the targets' expressions.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn targets(model: &Model, solution: &Solution) -> Result<Vec<f64>, PostError> {
+    let results = outputs_of(model, solution, model.targets.iter().map(|target| &target.output))?;
+    Ok(results
+        .iter()
+        .map(|result| match result.value {
+            OutputValue::Number(value) => value,
+            OutputValue::Vector(vector) => vector[0],
+        })
+        .collect())
+}
+
+fn outputs_of<'a>(
+    model: &'a Model,
+    solution: &Solution,
+    outputs: impl Iterator<Item = &'a Output> + Clone,
+) -> Result<Vec<OutputResult>, PostError> {
+    let stressed = |beam: usize| {
+        outputs.clone().flat_map(|output| &output.probes).any(|probe| {
+            matches!(probe.target, ProbeTarget::Beam(id, _) if id.0 == beam)
+                && matches!(probe.quantity, Quantity::Stress | Quantity::Strain)
+        })
+    };
+    let beams = model.beams.iter().zip(&solution.beams).enumerate();
+    let stress: Vec<_> = beams
+        .map(|(i, (beam, result))| if stressed(i) { beam_stress(model, beam, result) } else { None })
+        .collect();
+    outputs.map(|output| outputs::evaluate(output, model, solution, &stress)).collect()
 }
 
 /// Stresses, strains and outputs of a solution.
@@ -73,6 +116,24 @@ pub enum PostError {
         beam: String,
         /// Arc length, m.
         s: f64,
+    },
+    /// A screw axis of a body that does not turn.
+    #[error(
+        "output `{output}` asks for the screw axis of body `{body}`, which only shifts and does not turn"
+    )]
+    NoTurning {
+        /// Name of the output.
+        output: String,
+        /// Name of the body.
+        body: String,
+    },
+    /// A compliance that the solution does not hold, or a stiffness where something does not give way at all.
+    #[error("output `{output}`: {why}")]
+    NoCompliance {
+        /// Name of the output.
+        output: String,
+        /// Why there is none.
+        why: &'static str,
     },
     /// A quantity that its target does not have.
     #[error("output `{output}` asks for a quantity that {target} does not have")]

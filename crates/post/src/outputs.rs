@@ -1,9 +1,10 @@
 //! The outputs that a model asks for.
 
+use crate::screw::{center_of_compliance, finite_screw, instantaneous_screw};
 use crate::{BeamStress, PostError};
-use flexura_model::{At, BeamId, Model, Output, Probe, ProbeTarget, Quantity};
-use flexura_solution::Solution;
-use flexura_spatial::{Pose, Vector3, log};
+use flexura_model::{At, BeamId, BodyId, Model, Output, Probe, ProbeTarget, Quantity};
+use flexura_solution::{Solution, TangentSolution};
+use flexura_spatial::{Matrix6, Pose, Vector3, log};
 
 /// The value of an output, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +40,7 @@ pub fn evaluate_outputs(
     model.outputs.iter().map(|output| evaluate(output, model, solution, stress)).collect()
 }
 
-fn evaluate(
+pub(crate) fn evaluate(
     output: &Output,
     model: &Model,
     solution: &Solution,
@@ -79,10 +80,7 @@ impl Reader<'_> {
         let component = probe.component;
         match probe.target {
             ProbeTarget::Beam(beam, at) => self.read_beam(beam, at, probe.quantity, component),
-            ProbeTarget::Body(body) => {
-                let pose = self.solution.bodies.get(body.0).ok_or_else(|| self.no_such_quantity("a body"))?;
-                pose_component(pose, probe.quantity, component).ok_or_else(|| self.no_such_quantity("a body"))
-            }
+            ProbeTarget::Body(body) => self.read_body(body, probe.quantity, component),
             ProbeTarget::Joint(joint) => {
                 let result = self.solution.joints.get(joint.0);
                 let value = result.and_then(|joint| match probe.quantity {
@@ -119,6 +117,74 @@ impl Reader<'_> {
         }
     }
 
+    fn read_body(&self, body: BodyId, quantity: Quantity, component: usize) -> Result<f64, PostError> {
+        let missing = || self.no_such_quantity("a body");
+        let pose = self.solution.bodies.get(body.0).ok_or_else(missing)?;
+        let initial = &self.model.bodies.get(body.0).ok_or_else(missing)?.pose;
+        let no_turning =
+            || PostError::NoTurning { output: self.output.to_owned(), body: self.model[body].name.clone() };
+        let target = ProbeTarget::Body(body);
+        let screw = match quantity {
+            Quantity::ScrewAngle => return Ok(moved(initial, pose, Quantity::Turning).norm()),
+            Quantity::ScrewAxis | Quantity::ScrewPoint | Quantity::ScrewPitch => finite_screw(initial, pose),
+            Quantity::MotionAxis | Quantity::MotionPoint | Quantity::MotionPitch => {
+                instantaneous_screw(&pose.position, &self.tangent(target)?.motion)
+            }
+            Quantity::Displacement | Quantity::Turning => {
+                return moved(initial, pose, quantity).get(component).copied().ok_or_else(missing);
+            }
+            Quantity::Compliance | Quantity::Stiffness | Quantity::CenterOfCompliance => {
+                return self.read_compliance(target, &pose.position, quantity, component);
+            }
+            _ => return pose_component(pose, quantity, component).ok_or_else(missing),
+        };
+        let screw = screw.ok_or_else(no_turning)?;
+        match quantity {
+            Quantity::ScrewAxis | Quantity::MotionAxis => {
+                screw.axis.get(component).copied().ok_or_else(missing)
+            }
+            Quantity::ScrewPoint | Quantity::MotionPoint => {
+                screw.point.get(component).copied().ok_or_else(missing)
+            }
+            _ => Ok(screw.pitch),
+        }
+    }
+
+    fn tangent(&self, target: ProbeTarget) -> Result<&TangentSolution, PostError> {
+        self.solution.tangents.iter().find(|tangent| tangent.target == target).ok_or_else(|| {
+            PostError::NoCompliance {
+                output: self.output.to_owned(),
+                why: "there is no tangent here: the solve did not converge, or ended at a fold or branch point",
+            }
+        })
+    }
+
+    fn read_compliance(
+        &self,
+        target: ProbeTarget,
+        position: &Vector3<f64>,
+        quantity: Quantity,
+        component: usize,
+    ) -> Result<f64, PostError> {
+        let none = |why| PostError::NoCompliance { output: self.output.to_owned(), why };
+        let compliance =
+            self.tangent(target)?.compliance.as_ref().ok_or_else(|| none("it has no compliance"))?;
+        match quantity {
+            Quantity::CenterOfCompliance => {
+                let centre = center_of_compliance(compliance)
+                    .ok_or_else(|| none("nothing turns there, so there is no centre of compliance"))?;
+                Ok((position + centre)[component.min(2)])
+            }
+            Quantity::Compliance => Ok(compliance[(component / 6, component % 6)]),
+            _ => {
+                let stiffness = stiffness(compliance).ok_or_else(|| {
+                    none("a motion is blocked altogether there, so its stiffness is infinite")
+                })?;
+                Ok(stiffness[(component / 6, component % 6)])
+            }
+        }
+    }
+
     fn read_beam(&self, id: BeamId, at: At, quantity: Quantity, component: usize) -> Result<f64, PostError> {
         let missing = || self.no_such_quantity("a beam");
         let result = self.solution.beams.get(id.0).ok_or_else(missing)?;
@@ -139,6 +205,11 @@ impl Reader<'_> {
             Quantity::Force => sample.wrench.force,
             Quantity::Moment => sample.wrench.moment,
             Quantity::Curvature => sample.curvature,
+            Quantity::Displacement | Quantity::Turning => moved(&sample.rest_pose, &sample.pose, quantity),
+            Quantity::Compliance | Quantity::Stiffness | Quantity::CenterOfCompliance => {
+                let position = sample.pose.position;
+                return self.read_compliance(ProbeTarget::Beam(id, at), &position, quantity, component);
+            }
             _ => return pose_component(&sample.pose, quantity, component).ok_or_else(missing),
         };
         vector.get(component).copied().ok_or_else(missing)
@@ -162,6 +233,26 @@ impl Reader<'_> {
     fn no_such_quantity(&self, target: &'static str) -> PostError {
         PostError::NoSuchQuantity { output: self.output.to_owned(), target }
     }
+}
+
+/// Shift of the origin, or rotation vector of the turning, from one pose to another.
+fn moved(from: &Pose, to: &Pose, quantity: Quantity) -> Vector3<f64> {
+    match quantity {
+        Quantity::Displacement => to.position - from.position,
+        _ => log(&(to.rotation * from.rotation.inverse())),
+    }
+}
+
+/// The inverse of a compliance, by way of rows and columns of like size: metres and radians differ by orders. None where
+/// a motion is blocked.
+fn stiffness(compliance: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+    let size = compliance.diagonal().map(|c| c.abs().sqrt());
+    if size.min() <= 1e-12 * size.fixed_rows::<3>(0).amax().min(size.fixed_rows::<3>(3).amax()) {
+        return None;
+    }
+    let scaled = Matrix6::from_fn(|i, j| compliance[(i, j)] / (size[i] * size[j]));
+    let inverse = scaled.try_inverse()?;
+    Some(Matrix6::from_fn(|i, j| inverse[(i, j)] / (size[i] * size[j])))
 }
 
 fn pose_component(pose: &Pose, quantity: Quantity, component: usize) -> Option<f64> {

@@ -1,9 +1,16 @@
 //! What can be done with a model. Each study returns a `Solution`.
 
+mod family;
+mod inverse;
+mod search;
+mod sensitivity;
 mod solve;
 
+pub use family::Family;
 pub use flexura_equilibrium::{Census, Equilibrium, ProblemError};
-pub use solve::{Options, Outcome, Prepared, Progress, solve};
+pub use search::equilibria;
+pub use sensitivity::SensitivityError;
+pub use solve::{Options, Outcome, Prepared, Progress, solve, solve_family};
 
 use flexura_model::Model;
 

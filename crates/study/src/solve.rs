@@ -1,7 +1,9 @@
 //! The equilibrium reached from rest under proportional load.
 
+use crate::family::Family;
+use crate::inverse::Border;
 use flexura_equilibrium::{Equilibrium, Finish, ProblemError};
-use flexura_model::{LoadId, Model};
+use flexura_model::{BeamPoint, LoadId, Model, ProbeTarget, Quantity};
 use flexura_nonlinear::{Breakdown, NewtonEnd, PathEnd, PathOptions, PathWork, System, follow};
 use flexura_solution::{Solution, Status};
 use flexura_spatial::Vector3;
@@ -13,11 +15,17 @@ pub struct Options {
     pub tolerance: f64,
     /// Samples along each beam in the result, ends included.
     pub samples: usize,
+    /// Bodies and places on beams whose compliance is wanted, besides those that outputs name.
+    pub compliances: Vec<ProbeTarget>,
+    /// Derivatives of all outputs with respect to all parameters.
+    pub sensitivities: bool,
+    /// An earlier result to start from, of this or a neighbouring model, in place of the rest state.
+    pub from: Option<Box<Solution>>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { tolerance: 1e-8, samples: 101 }
+        Self { tolerance: 1e-8, samples: 101, compliances: Vec::new(), sensitivities: false, from: None }
     }
 }
 
@@ -33,8 +41,10 @@ pub struct Progress {
 /// A model made ready for many solves: change a load, solve again from rest or from where it stands.
 #[derive(Clone, Debug)]
 pub struct Prepared {
-    problem: Equilibrium,
+    pub(crate) problem: Equilibrium,
     path: PathOptions,
+    /// Derivatives along the unknown parameters, from the last correction of an inverse problem.
+    pub(crate) border: Option<Border>,
 }
 
 /// What a solve came to, before anything is sampled.
@@ -78,9 +88,49 @@ impl Prepared {
     /// # Errors
     /// Names what is loose, held twice or without sound numbers.
     pub fn new(model: &Model) -> Result<Self, ProblemError> {
-        let mut problem = Equilibrium::new(model)?;
+        Self::with_probes(model, &[])
+    }
+
+    /// The same, with places on beams whose compliance will be asked for.
+    ///
+    /// # Errors
+    /// As [`Prepared::new`].
+    pub fn with_probes(model: &Model, probes: &[BeamPoint]) -> Result<Self, ProblemError> {
+        let mut problem = Equilibrium::with_probes(model, probes)?;
         problem.check_held()?;
-        Ok(Self { problem, path: PathOptions::default() })
+        Ok(Self { problem, path: PathOptions::default(), border: None })
+    }
+
+    /// The model as it stands: of an inverse problem with the values found.
+    pub fn model(&self) -> &Model {
+        self.problem.model()
+    }
+
+    /// Puts a neighbouring model, made of the same parts, under the present state, to be solved from there.
+    ///
+    /// # Errors
+    /// A model that is made of other parts.
+    pub fn adopt(&mut self, model: &Model) -> Result<(), ProblemError> {
+        let law = self.problem.neighbour(model)?;
+        self.problem.exchange(law);
+        self.border = None;
+        Ok(())
+    }
+
+    /// What outputs and targets need, and no more.
+    pub(crate) fn light_solution(&mut self) -> Result<Solution, Breakdown> {
+        let model = self.problem.model();
+        let all = model.outputs.iter().chain(model.targets.iter().map(|target| &target.output));
+        let energies = all.flat_map(|o| &o.probes).any(|probe| probe.quantity == Quantity::Energy);
+        let mut solution = self.problem.sampled(2, energies);
+        if self.asks_for_tangents() {
+            solution.tangents = self.problem.tangents(&tangent_targets(self.problem.model()))?;
+        }
+        Ok(solution)
+    }
+
+    pub(crate) fn asks_for_tangents(&self) -> bool {
+        !tangent_targets(self.problem.model()).is_empty()
     }
 
     /// The equations behind it.
@@ -183,7 +233,7 @@ impl Prepared {
         self.solve(tolerance, progress)
     }
 
-    fn finish(&mut self, tolerance: f64, path: PathWork, nearest: f64) -> Outcome {
+    pub(crate) fn finish(&mut self, tolerance: f64, path: PathWork, nearest: f64) -> Outcome {
         let (status, reason, error_estimate) = match self.problem.finish(tolerance, nearest) {
             Finish::Done { error } => (Status::Converged, None, error),
             Finish::AccuracyLimit { error } => (
@@ -242,19 +292,98 @@ impl Prepared {
     }
 }
 
-/// The equilibrium reached from rest under proportional load without passing a fold.
+/// Bodies and places on beams whose small motions the outputs or targets ask for.
+pub(crate) fn tangent_targets(model: &Model) -> Vec<ProbeTarget> {
+    let all = model.outputs.iter().chain(model.targets.iter().map(|target| &target.output));
+    let mut targets: Vec<ProbeTarget> = Vec::new();
+    for probe in all.flat_map(|output| &output.probes) {
+        let asked = matches!(
+            probe.quantity,
+            Quantity::Compliance
+                | Quantity::Stiffness
+                | Quantity::CenterOfCompliance
+                | Quantity::MotionAxis
+                | Quantity::MotionPoint
+                | Quantity::MotionPitch
+        );
+        if asked && !targets.contains(&probe.target) {
+            targets.push(probe.target);
+        }
+    }
+    targets
+}
+
+/// The equilibrium reached from rest under proportional load without passing a fold; of an inverse problem, the
+/// parameters too.
 ///
 /// A solve that does not get there returns a solution too: its status says so, its state is the last point
 /// that was reached.
 ///
 /// # Errors
-/// A model that describes no solvable mechanism.
+/// A model that describes no solvable mechanism; an inverse problem, which needs [`solve_family`].
 pub fn solve(
     model: &Model,
     options: &Options,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Solution, ProblemError> {
-    let mut prepared = Prepared::new(model)?;
-    let outcome = prepared.solve(options.tolerance, progress);
-    Ok(prepared.solution(&outcome, options.samples))
+    let mut fixed = |_: &[(usize, f64)]| -> Result<Model, ProblemError> {
+        Err(ProblemError::new(
+            "unknown",
+            "the model cannot be made again with other values of its parameters",
+            "solve it as a family: from its file, or with a function that makes it",
+        ))
+    };
+    Ok(solve_family(model, &mut fixed, options, progress)?.0)
+}
+
+/// [`solve`] of a model whose parameters can be given other values: for inverse problems and for sensitivities. The
+/// second of the pair is the model with the values found.
+///
+/// # Errors
+/// A model that describes no solvable mechanism.
+pub fn solve_family(
+    model: &Model,
+    family: &mut dyn Family,
+    options: &Options,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<(Solution, Model), ProblemError> {
+    let probes = options.compliances.iter().filter_map(|target| match target {
+        ProbeTarget::Beam(beam, at) => Some(BeamPoint { beam: *beam, at: *at }),
+        _ => None,
+    });
+    let mut prepared = Prepared::with_probes(model, &probes.collect::<Vec<_>>())?;
+    let outcome = if model.unknowns.is_empty() {
+        prepared.solve(options.tolerance, progress)
+    } else {
+        prepared.solve_inverse(family, options.tolerance, progress)
+    };
+    let mut solution = prepared.solution(&outcome, options.samples);
+    if outcome.status == Status::Converged {
+        prepared.add_tangents(&mut solution, &options.compliances);
+        if options.sensitivities {
+            let parameters: Vec<usize> = (0..model.parameters.len()).collect();
+            match prepared.sensitivities(family, &parameters) {
+                Ok(sensitivities) => solution.sensitivities = Some(sensitivities),
+                Err(error) => solution.warnings.push(error.to_string()),
+            }
+        }
+    }
+    solution.found = prepared.unknown_values();
+    Ok((solution, prepared.model().clone()))
+}
+
+impl Prepared {
+    /// Compliances and motions of what outputs ask for, and of `further`.
+    pub fn add_tangents(&mut self, solution: &mut Solution, further: &[ProbeTarget]) {
+        let mut targets = tangent_targets(self.problem.model());
+        targets
+            .extend(further.iter().filter(|target| !targets.contains(target)).copied().collect::<Vec<_>>());
+        match self.problem.tangents(&targets) {
+            Ok(tangents) => solution.tangents = tangents,
+            Err(_) => solution.warnings.push(
+                "no compliances: the tangent has no inverse here, which is a fold or branch point"
+                    .to_string(),
+            ),
+        }
+    }
 }

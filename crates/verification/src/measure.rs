@@ -14,7 +14,7 @@ pub const SAMPLES: usize = 41;
 /// # Errors
 /// The model is wrong, or the solve did not converge to the tolerance.
 pub fn solve(model: &Model, tolerance: f64) -> Result<Solution, String> {
-    let options = Options { tolerance, samples: SAMPLES };
+    let options = Options { tolerance, samples: SAMPLES, ..Options::default() };
     let solution = flexura_study::solve(model, &options, &mut |_| {}).map_err(|error| error.to_string())?;
     match solution.status {
         Status::Converged => Ok(solution),

@@ -1,0 +1,217 @@
+//! How outputs depend on parameters at an equilibrium.
+//!
+//! The equilibrium r(x, p) = 0 moves with a parameter by `dx/dp = -J⁻¹ ∂r/∂p`, J factorised once. The load, geometry,
+//! material or drive behind p enters r through sections, rest shapes and places, so ∂r/∂p is the derivative
+//! of the residual at a standing state, and with the direction (dx/dp, 1) an output is a function of one number whose
+//! derivative at zero is wanted. Both are taken by central differences of order six, whose step is shortened
+//! until two of them agree; no equilibrium is solved again. What is left of difference and round-off is about 1e-11 of
+//! the derivative; it is returned with the rest.
+
+use crate::Prepared;
+use crate::family::{Family, size_of};
+use flexura_equilibrium::{CENTRAL, ProblemError};
+use flexura_nonlinear::{Breakdown, System};
+use flexura_post::{OutputValue, PostError};
+use flexura_solution::Sensitivities;
+
+/// First relative step of the differences, and by how much the next ones are shorter.
+const FIRST: f64 = 4e-3;
+const SHORTER: f64 = 0.25;
+/// Relative difference of two estimates that is good enough, and how many are tried.
+const AGREED: f64 = 1e-11;
+const TRIES: usize = 5;
+
+/// Why derivatives cannot be had.
+#[derive(Clone, Debug)]
+pub enum SensitivityError {
+    /// The tangent has no inverse at the equilibrium.
+    Tangent(Breakdown),
+    /// A neighbouring model is none.
+    Model(ProblemError),
+    /// An output has no value.
+    Output(PostError),
+}
+
+impl std::fmt::Display for SensitivityError {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            SensitivityError::Tangent(_) => {
+                formatter.write_str("no sensitivities: the equilibrium is at a fold or branch point")
+            }
+            SensitivityError::Model(error) => {
+                write!(formatter, "no sensitivities: {} {}", error.path, error.message)
+            }
+            SensitivityError::Output(error) => write!(formatter, "no sensitivities: {error}"),
+        }
+    }
+}
+
+impl From<Breakdown> for SensitivityError {
+    fn from(breakdown: Breakdown) -> Self {
+        SensitivityError::Tangent(breakdown)
+    }
+}
+
+impl From<ProblemError> for SensitivityError {
+    fn from(error: ProblemError) -> Self {
+        SensitivityError::Model(error)
+    }
+}
+
+impl From<PostError> for SensitivityError {
+    fn from(error: PostError) -> Self {
+        SensitivityError::Output(error)
+    }
+}
+
+impl Prepared {
+    /// The outputs of the present state, components one after another.
+    pub(crate) fn outputs_here(&mut self) -> Result<Vec<f64>, SensitivityError> {
+        let solution = self.light_solution()?;
+        let outputs = flexura_post::outputs(self.problem.model(), &solution)?;
+        Ok(outputs
+            .iter()
+            .flat_map(|output| match output.value {
+                OutputValue::Number(v) => vec![v],
+                OutputValue::Vector(v) => v.to_vec(),
+            })
+            .collect())
+    }
+
+    /// The step of the state per unit of a parameter, `-J⁻¹ ∂r/∂p`, with the tangent last factorised, by differences of
+    /// order six with the step `h`.
+    pub(crate) fn state_slope(
+        &mut self,
+        family: &mut dyn Family,
+        parameter: usize,
+        value: f64,
+        h: f64,
+    ) -> Result<Vec<f64>, SensitivityError> {
+        let mut kept = Vec::new();
+        self.problem.store(&mut kept);
+        let mut sum = vec![0.0; self.problem.unknowns()];
+        let mut step = sum.clone();
+        for (factor, weight) in CENTRAL {
+            let law =
+                self.problem.neighbour(&family.model(&self.values_with(parameter, value + factor * h))?)?;
+            let own = self.problem.exchange(law);
+            let outcome = self.problem.residual();
+            self.problem.newton_step(&mut step);
+            self.problem.exchange(own);
+            self.problem.restore(&kept);
+            outcome?;
+            sum.iter_mut().zip(&step).for_each(|(s, d)| *s += weight / h * d);
+        }
+        Ok(sum)
+    }
+
+    /// Derivatives of all outputs and of all body poses with respect to parameters, at the present equilibrium.
+    ///
+    /// # Errors
+    /// [`SensitivityError`].
+    pub fn sensitivities(
+        &mut self,
+        family: &mut dyn Family,
+        parameters: &[usize],
+    ) -> Result<Sensitivities, SensitivityError> {
+        let components: Vec<usize> =
+            self.problem.model().outputs.iter().map(|output| output.formulas.len()).collect();
+        let mut result = Sensitivities {
+            parameters: parameters.to_vec(),
+            outputs: components.iter().map(|n| vec![Vec::new(); *n]).collect(),
+            bodies: vec![Vec::new(); self.problem.model().bodies.len()],
+        };
+        for &parameter in parameters {
+            let value = self.problem.model().parameters[parameter].value;
+            let (length, force) = self.problem.units();
+            let size = size_of(self.problem.model(), parameter, length, force);
+            let (slopes, along) = self.slopes(family, parameter, value, size)?;
+            let mut slopes = slopes.into_iter();
+            for output in &mut result.outputs {
+                for component in output {
+                    component.push(slopes.next().unwrap_or(0.0));
+                }
+            }
+            for (list, twist) in result.bodies.iter_mut().zip(self.problem.body_motions(&along)) {
+                list.push(twist);
+            }
+        }
+        Ok(result)
+    }
+
+    /// Derivatives of the outputs, and of the state, along one parameter.
+    fn slopes(
+        &mut self,
+        family: &mut dyn Family,
+        parameter: usize,
+        value: f64,
+        size: f64,
+    ) -> Result<(Vec<f64>, Vec<f64>), SensitivityError> {
+        let mut kept = Vec::new();
+        self.problem.store(&mut kept);
+        let mut h = FIRST * size;
+        let mut best: Vec<Estimate> = Vec::new();
+        let mut along = Vec::new();
+        for _ in 0..TRIES {
+            self.problem.linearise()?;
+            along = self.state_slope(family, parameter, value, h)?;
+            let mut sum: Vec<(f64, f64)> = Vec::new();
+            for (factor, weight) in CENTRAL {
+                let law = self
+                    .problem
+                    .neighbour(&family.model(&self.values_with(parameter, value + factor * h))?)?;
+                let own = self.problem.exchange(law);
+                let step: Vec<f64> = along.iter().map(|v| v * factor * h).collect();
+                self.problem.retract(&step);
+                let outputs = self.outputs_here();
+                self.problem.exchange(own);
+                self.problem.restore(&kept);
+                let outputs = outputs?;
+                sum.resize(outputs.len(), (0.0, 0.0));
+                for ((slope, level), y) in sum.iter_mut().zip(&outputs) {
+                    *slope += weight / h * y;
+                    *level = level.max(y.abs());
+                }
+            }
+            best.resize(sum.len(), Estimate::default());
+            for (estimate, (slope, level)) in best.iter_mut().zip(&sum) {
+                estimate.take(*slope, 1e-13 * level / size);
+            }
+            if best.iter().all(|estimate| estimate.apart < AGREED) {
+                break;
+            }
+            h *= SHORTER;
+        }
+        Ok((best.iter().map(|estimate| estimate.slope).collect(), along))
+    }
+}
+
+/// The best of several estimates of one derivative: where two that follow each other are nearest.
+#[derive(Clone, Copy, Debug)]
+struct Estimate {
+    slope: f64,
+    last: Option<f64>,
+    apart: f64,
+}
+
+impl Default for Estimate {
+    fn default() -> Self {
+        Self { slope: 0.0, last: None, apart: f64::INFINITY }
+    }
+}
+
+impl Estimate {
+    /// One more; what is below `noise` counts as nothing.
+    fn take(&mut self, slope: f64, noise: f64) {
+        if let Some(last) = self.last {
+            let apart =
+                ((slope - last).abs() - noise).max(0.0) / slope.abs().max(last.abs()).max(f64::MIN_POSITIVE);
+            if apart < self.apart {
+                (self.slope, self.apart) = (slope, apart);
+            }
+        } else {
+            self.slope = slope;
+        }
+        self.last = Some(slope);
+    }
+}
