@@ -4,6 +4,8 @@
 pub mod balance;
 pub mod constitutive;
 pub mod propagate;
+pub mod tendon;
 
 pub use constitutive::{Coupled, Law, Shearable, Slender};
 pub use propagate::{LawTable, LoadSample, Piece, RodState, advance};
+pub use tendon::{Channel, ChannelSample, Tension, advance_tendons};

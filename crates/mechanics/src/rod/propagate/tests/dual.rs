@@ -8,7 +8,7 @@ use num_dual::{Dual64, DualNum};
 type D = Dual64;
 
 /// Rows of the order-eight tableau, one for each stage and one for the result; zeros left out.
-const ROWS: [&[(usize, f64)]; STAGES] = [
+pub(crate) const ROWS: [&[(usize, f64)]; STAGES] = [
     &[(0, 0.05260015195876773)],
     &[(0, 0.0197250569845379), (1, 0.0591751709536137)],
     &[(0, 0.02958758547680685), (2, 0.08876275643042054)],
