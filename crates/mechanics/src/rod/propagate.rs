@@ -271,7 +271,7 @@ pub(super) fn globalise<const W: usize>(
 }
 
 /// The quaternion product `a b`, brought to length one.
-fn unit_product(a: &[f64; 4], b: &[f64; 4]) -> [f64; 4] {
+pub(super) fn unit_product(a: &[f64; 4], b: &[f64; 4]) -> [f64; 4] {
     let vector = cross(&[a[1], a[2], a[3]], &[b[1], b[2], b[3]]);
     let q = [
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
