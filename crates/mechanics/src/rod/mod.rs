@@ -9,5 +9,5 @@ pub mod tubes;
 
 pub use constitutive::{Coupled, Law, Shearable, Slender};
 pub use propagate::{LawTable, LoadSample, Piece, RodState, advance};
-pub use tendon::{Channel, ChannelSample, Tension, advance_tendons};
+pub use tendon::{Channel, ChannelSample, Tension, advance_tendons, rod_share};
 pub use tubes::{Guided, TUBES, Tube, TubePiece, TubeState, advance_tubes};

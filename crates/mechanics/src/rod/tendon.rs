@@ -78,6 +78,24 @@ pub fn advance_tendons<const W: usize>(
     run(piece, channels, tensions, load, state, lengths);
 }
 
+/// Force and moment of the rod alone, section axes, N and N·m, where rod and tendons together carry `total`
+/// (n, m). `tendons`: where each runs, and its tension. With it `law` gives the strain.
+pub fn rod_share(law: &Coupled, total: &[[f64; 3]; 2], tendons: &[(ChannelSample, f64)]) -> [[f64; 3]; 2] {
+    let tendons = tendons
+        .iter()
+        .map(|(place, tension)| Pull {
+            tension: *tension,
+            arm: [0.0, place.offset[0], place.offset[1]],
+            slope: [0.0, place.slope[0], place.slope[1]],
+            ..Pull::default()
+        })
+        .collect();
+    let mut section = Section { tendons, pull: None };
+    let (e, _) = section.solve(law, total, false);
+    let pull = section.pull_at(&e);
+    std::array::from_fn(|part| std::array::from_fn(|i| total[part][i] - pull[3 * part + i]))
+}
+
 /// The same kernel compiled for four lanes at a time. No fused multiply-add: both builds give equal bits.
 #[cfg(all(target_arch = "x86_64", not(feature = "baseline")))]
 #[target_feature(enable = "avx2")]
@@ -324,6 +342,15 @@ impl Section {
             None => self.pull_at(&strain(&[0.0; 6])),
         };
         let mut x: [f64; 6] = std::array::from_fn(|i| total[i] - pull[i]);
+        // Strains that no wrench changes stay out of the elimination.
+        let (mut soft, mut size) = ([0; 6], 0);
+        for i in 0..6 {
+            if c[i].iter().any(|v| *v != 0.0) {
+                soft[size] = i;
+                size += 1;
+            }
+        }
+        let soft = &soft[..size];
         let mut last: Option<Step> = None;
         for _ in 0..STEPS {
             let e = strain(&x);
@@ -346,26 +373,36 @@ impl Section {
             let mut stiffness = [[0.0; 6]; 6];
             self.tendons.iter().for_each(|t| t.add_stiffness(&mut stiffness));
             let mut softened = [[0.0; 6]; 6];
-            for i in 0..6 {
-                for j in 0..6 {
-                    for l in 0..6 {
-                        softened[i][j] += c[i][l] * stiffness[l][j];
+            for (p, i) in soft.iter().enumerate() {
+                for (q, j) in soft.iter().enumerate() {
+                    for l in soft {
+                        softened[p][q] += c[*i][*l] * stiffness[*l][*j];
                     }
                 }
-                softened[i][i] += 1.0;
+                softened[p][p] += 1.0;
             }
             if settled {
                 self.pull = Some(pull);
                 let mut tangent = *law;
-                eliminate(softened, &mut tangent.compliance);
+                let mut right = [[0.0; 6]; 6];
+                for (p, i) in soft.iter().enumerate() {
+                    right[p] = c[*i];
+                }
+                eliminate(size, &mut softened, &mut right);
+                for (p, i) in soft.iter().enumerate() {
+                    tangent.compliance[*i] = right[p];
+                }
                 return (e, tangent);
             }
-            let mut de = [[0.0; 1]; 6];
-            for i in 0..6 {
-                de[i][0] = dot(&c[i], &gap);
+            let mut right = [[0.0; 1]; 6];
+            for (p, i) in soft.iter().enumerate() {
+                right[p][0] = dot(&c[*i], &gap);
             }
-            eliminate(softened, &mut de);
-            let de: [f64; 6] = std::array::from_fn(|i| de[i][0]);
+            eliminate(size, &mut softened, &mut right);
+            let mut de = [0.0; 6];
+            for (p, i) in soft.iter().enumerate() {
+                de[*i] = right[p][0];
+            }
             let dx: [f64; 6] = std::array::from_fn(|i| gap[i] - dot(&stiffness[i], &de));
             let turn =
                 self.tendons.iter().map(|t| norm(&t.advance(&de, &[0.0; 3])) / t.stretch).fold(0.0, f64::max);
@@ -389,36 +426,39 @@ impl Section {
     }
 }
 
-/// Solves `a x = b` in place of `b`, by elimination with row exchanges.
-fn eliminate<const N: usize>(mut a: [[f64; 6]; 6], b: &mut [[f64; N]; 6]) {
-    for i in 0..6 {
+/// Solves the first `size` rows of `a x = b` in place of `b`, by elimination with row exchanges.
+fn eliminate<const N: usize>(size: usize, a: &mut [[f64; 6]; 6], b: &mut [[f64; N]; 6]) {
+    let size = size.min(6);
+    for i in 0..size {
         let mut largest = i;
-        for r in i + 1..6 {
+        for r in i + 1..size {
             if a[r][i].abs() > a[largest][i].abs() {
                 largest = r;
             }
         }
-        a.swap(i, largest);
-        b.swap(i, largest);
-        for r in i + 1..6 {
-            let factor = a[r][i] / a[i][i];
-            if factor != 0.0 {
-                for l in i..6 {
-                    a[r][l] -= factor * a[i][l];
-                }
-                for l in 0..N {
-                    b[r][l] -= factor * b[i][l];
-                }
+        if largest != i {
+            a.swap(i, largest);
+            b.swap(i, largest);
+        }
+        let inverse = 1.0 / a[i][i];
+        for r in i + 1..size {
+            let factor = a[r][i] * inverse;
+            for l in i + 1..size {
+                a[r][l] -= factor * a[i][l];
+            }
+            for l in 0..N {
+                b[r][l] -= factor * b[i][l];
             }
         }
+        a[i][i] = inverse;
     }
-    for i in (0..6).rev() {
+    for i in (0..size).rev() {
         for l in 0..N {
             let mut sum = b[i][l];
-            for j in i + 1..6 {
+            for j in i + 1..size {
                 sum -= a[i][j] * b[j][l];
             }
-            b[i][l] = sum / a[i][i];
+            b[i][l] = sum * a[i][i];
         }
     }
 }

@@ -25,8 +25,8 @@
 //! the same equations, theirs with the curvature of tube 1 as a state in place of M.
 
 use super::balance::{
-    FULL_ROWS, Lanes, Matrix, POSE_ROWS, SectionWrench, apply, rotation, section_wrench, strained_rate,
-    wrench_rate,
+    FULL_ROWS, Lanes, Matrix, POSE_ROWS, SectionWrench, apply, apply_transposed, rotation, section_wrench,
+    strained_rate, wrench_rate,
 };
 use super::propagate::{LoadSample, RodState, entry, globalise, localised, unit_product};
 use crate::ode::{self, Rate, State};
@@ -142,6 +142,35 @@ impl<const W: usize> TubeState<W> {
             for l in 0..W {
                 out[l] -= row[l];
             }
+        }
+        out
+    }
+
+    /// The moment (m_i, EI_i (k - a_i)_23) of each tube in its own axes, N·m, tube 1 first. `tubes` holds EI and the
+    /// rest curvature here of those that are here; the others get none.
+    pub fn moments(&self, tubes: &[Option<(f64, [f64; 3])>; TUBES]) -> [[f64; 3]; TUBES] {
+        let (r, _) = rotation(&self.rod.rotation);
+        let m = apply_transposed(&r, &self.rod.moment);
+        let angle = |i: usize| if i == 0 { 0.0 } else { self.angle[i - 1][0] };
+        let (mut sum, mut stiffness) = ([m[1], m[2]], 0.0);
+        for (i, tube) in tubes.iter().enumerate() {
+            let Some((bending, u)) = tube else { continue };
+            let (sin, cos) = angle(i).sin_cos();
+            sum[0] += bending * (cos * u[1] - sin * u[2]);
+            sum[1] += bending * (sin * u[1] + cos * u[2]);
+            stiffness += bending;
+        }
+        let k = sum.map(|m| m / stiffness);
+        let mut out = [[0.0; 3]; TUBES];
+        for (i, tube) in tubes.iter().enumerate() {
+            let Some((bending, u)) = tube else { continue };
+            let (sin, cos) = angle(i).sin_cos();
+            let torque = if i == 0 { self.first_torque()[0] } else { self.torque[i - 1][0] };
+            out[i] = [
+                torque,
+                bending * (cos * k[0] + sin * k[1] - u[1]),
+                bending * (cos * k[1] - sin * k[0] - u[2]),
+            ];
         }
         out
     }

@@ -4,6 +4,7 @@ mod shapes;
 
 use super::*;
 use crate::ode::NODES;
+use crate::rod::balance::cross;
 use crate::rod::{LawTable, Piece, Slender};
 use num_dual::Dual64;
 
@@ -164,7 +165,7 @@ fn one_tube_alone_is_a_plain_rod() {
 /// H = F·e1 + M·k + Σ m_i θ_i' - W, from the state alone.
 fn hamiltonian(piece: &TubePiece, state: &TubeState<1>) -> f64 {
     let (r, _) = rotation(&state.rod.rotation);
-    let back = |a: &[f64; 3]| super::super::balance::apply_transposed(&r, a);
+    let back = |a: &[f64; 3]| apply_transposed(&r, a);
     let (n, m) = (back(&state.rod.force), back(&state.rod.moment));
     let first = state.first_torque()[0];
     let mut tubes = vec![(&piece.first, 0.0, first)];
@@ -204,9 +205,37 @@ fn the_hamiltonian_is_constant_and_so_is_the_wrench() {
     assert!((a - b).abs() < 1e-13 && a.abs() > 0.1, "{a} and {b}");
     assert!((before.angle[0][0] - after.angle[0][0]).abs() > 0.1, "something must turn");
     for i in 0..3 {
-        let about = |s: &TubeState<1>| {
-            s.rod.moment[i] + super::super::balance::cross(&s.rod.position, &s.rod.force)[i]
-        };
+        let about = |s: &TubeState<1>| s.rod.moment[i] + cross(&s.rod.position, &s.rod.force)[i];
         assert!((about(&before) - about(&after)).abs() < 1e-13);
+    }
+}
+
+#[test]
+fn the_moments_of_the_tubes_sum_to_the_whole_and_bend_them_alike() {
+    let piece = piece(1, true, false);
+    let state: TubeState<1> = start();
+    let tubes = std::array::from_fn(|i| {
+        let tube = if i == 0 { Some(&piece.first) } else { piece.others[i - 1].as_ref() };
+        tube.map(|t| (t.bending, t.rest[0]))
+    });
+    let moments = state.moments(&tubes);
+    let mut whole = [0.0; 3];
+    let mut curvatures = Vec::new();
+    for (i, m) in moments.iter().enumerate() {
+        let Some((bending, u)) = tubes[i] else { continue };
+        let (s, c) = if i == 0 { (0.0, 1.0) } else { state.angle[i - 1][0].sin_cos() };
+        let k = [u[1] + m[1] / bending, u[2] + m[2] / bending];
+        curvatures.push([c * k[0] - s * k[1], s * k[0] + c * k[1]]);
+        whole[0] += m[0];
+        whole[1] += c * m[1] - s * m[2];
+        whole[2] += s * m[1] + c * m[2];
+    }
+    let (r, _) = rotation(&state.rod.rotation);
+    let expected = apply_transposed(&r, &state.rod.moment);
+    for i in 0..3 {
+        assert!((whole[i] - expected[i]).abs() < 1e-14);
+    }
+    for k in &curvatures[1..] {
+        assert!((k[0] - curvatures[0][0]).abs() + (k[1] - curvatures[0][1]).abs() < 1e-14);
     }
 }
