@@ -14,6 +14,7 @@ pub mod rod;
 pub mod roll_up;
 pub mod spring;
 pub mod taper;
+pub mod tubes;
 
 mod assert;
 mod jacobian;

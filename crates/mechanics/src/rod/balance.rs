@@ -122,22 +122,31 @@ pub(super) fn apply_transposed_lanes<const W: usize>(r: &Matrix, a: &Lanes<W>) -
     out
 }
 
-/// Rate of the pose under the internal wrench (F, M) at the section, all in the piece's start frame, and the
-/// rotation and axis rate that the wrench balance needs.
+/// The internal wrench in the section's axes, with its changes there.
+pub(super) struct SectionWrench<const W: usize> {
+    /// R(q).
+    pub r: Matrix,
+    /// δφ, the section's turning in its own axes.
+    pub dphi: Lanes<W>,
+    /// n = Rᵀ F and m = Rᵀ M.
+    pub value: [[f64; 3]; 2],
+    /// δn and δm; lane 0 is of no use.
+    pub change: [Lanes<W>; 2],
+}
+
+/// The wrench (F, M) at the section of orientation `q`, turned into the section's axes.
 ///
 /// `force` and `moment` hold values in lane 0 and derivatives beyond.
 #[inline(always)]
-pub(super) fn pose_rate<L: Law, const W: usize>(
+pub(super) fn section_wrench<const W: usize>(
     q: &[[f64; W]; 4],
     force: &Lanes<W>,
     moment: &Lanes<W>,
-    law: &L,
-) -> (State<POSE_ROWS, W>, Matrix, Lanes<W>) {
+) -> SectionWrench<W> {
     let qv = [q[0][0], q[1][0], q[2][0], q[3][0]];
     let (r, two) = rotation(&qv);
     let n = apply_transposed(&r, &value(force));
     let m = apply_transposed(&r, &value(moment));
-    let (nu, k) = law.strain(&n, &m);
 
     // δφ = 2 Im(q⁻¹ δq): the section's turning, in its own axes.
     let v = [qv[1], qv[2], qv[3]];
@@ -151,8 +160,21 @@ pub(super) fn pose_rate<L: Law, const W: usize>(
     // δ(Rᵀ F) = Rᵀ δF + n × δφ, and the same for M.
     let dn = add(&apply_transposed_lanes(&r, force), &cross_lanes(&n, &dphi));
     let dm = add(&apply_transposed_lanes(&r, moment), &cross_lanes(&m, &dphi));
-    let (dnu, dk) = law.strain_change(&dn, &dm);
+    SectionWrench { r, dphi, value: [n, m], change: [dn, dm] }
+}
 
+/// Rate of the pose whose strain is (ν, k) with changes (δν, δk) in lanes 1.., in the piece's start frame,
+/// and the axis rate p' that the wrench balance needs.
+#[inline(always)]
+pub(super) fn strained_rate<const W: usize>(
+    q: &[[f64; W]; 4],
+    r: &Matrix,
+    dphi: &Lanes<W>,
+    (nu, k): &([f64; 3], [f64; 3]),
+    (dnu, dk): &(Lanes<W>, Lanes<W>),
+) -> (State<POSE_ROWS, W>, Lanes<W>) {
+    let qv = [q[0][0], q[1][0], q[2][0], q[3][0]];
+    let v = [qv[1], qv[2], qv[3]];
     let mut rate = [[0.0; W]; POSE_ROWS];
     // q' = ½ q k, and δq' = ½ (δq k + q δk), in quaternion products.
     for l in 0..W {
@@ -169,14 +191,32 @@ pub(super) fn pose_rate<L: Law, const W: usize>(
     rate[3][0] = 0.5 * (qv[0] * k[2] + v[0] * k[1] - v[1] * k[0]);
 
     // p' = R ν, and δp' = R (δν + δφ × ν).
-    let stretch = sub(&dnu, &cross_lanes(&nu, &dphi));
-    let mut along = apply_lanes(&r, &stretch);
-    let axis = apply(&r, &nu);
+    let stretch = sub(dnu, &cross_lanes(nu, dphi));
+    let mut along = apply_lanes(r, &stretch);
+    let axis = apply(r, nu);
     for i in 0..3 {
         along[i][0] = axis[i];
         rate[4 + i] = along[i];
     }
-    (rate, r, along)
+    (rate, along)
+}
+
+/// Rate of the pose under the internal wrench (F, M) at the section, all in the piece's start frame, and the
+/// rotation and axis rate that the wrench balance needs.
+///
+/// `force` and `moment` hold values in lane 0 and derivatives beyond.
+#[inline(always)]
+pub(super) fn pose_rate<L: Law, const W: usize>(
+    q: &[[f64; W]; 4],
+    force: &Lanes<W>,
+    moment: &Lanes<W>,
+    law: &L,
+) -> (State<POSE_ROWS, W>, Matrix, Lanes<W>) {
+    let section = section_wrench(q, force, moment);
+    let strain = law.strain(&section.value[0], &section.value[1]);
+    let change = law.strain_change(&section.change[0], &section.change[1]);
+    let (rate, along) = strained_rate(q, &section.r, &section.dphi, &strain, &change);
+    (rate, section.r, along)
 }
 
 /// M at the section from the conserved moment: M + p × F is constant where no distributed load acts.

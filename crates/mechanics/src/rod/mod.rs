@@ -1,9 +1,13 @@
 //! The rod: how strain follows from the internal wrench, how the wrench balances, and how a rod's state is
-//! carried from one end of a piece to the other.
+//! carried from one end of a piece to the other; tendons in a rod's channels, and tubes in tubes.
 
 pub mod balance;
 pub mod constitutive;
 pub mod propagate;
+pub mod tendon;
+pub mod tubes;
 
 pub use constitutive::{Coupled, Law, Shearable, Slender};
 pub use propagate::{LawTable, LoadSample, Piece, RodState, advance};
+pub use tendon::{Channel, ChannelSample, Tension, advance_tendons, rod_share};
+pub use tubes::{Guided, TUBES, Tube, TubePiece, TubeState, advance_tubes};

@@ -36,6 +36,25 @@ pub struct LoadSample {
     pub section_moment: [f64; 3],
 }
 
+impl LoadSample {
+    /// `load` times the load: its dead part in the start frame with its lanes, and its section's part.
+    #[inline(always)]
+    pub(super) fn localised<const W: usize>(
+        &self,
+        load: f64,
+        r0: &Matrix,
+        dtheta: &Lanes<W>,
+    ) -> ([Lanes<W>; 2], [[f64; 3]; 2]) {
+        let scaled = |a: &[f64; 3]| [load * a[0], load * a[1], load * a[2]];
+        let zero = [[0.0; W]; 3];
+        let dead = [
+            localised(r0, &scaled(&self.dead_force), &zero, dtheta),
+            localised(r0, &scaled(&self.dead_moment), &zero, dtheta),
+        ];
+        (dead, [scaled(&self.section_force), scaled(&self.section_moment)])
+    }
+}
+
 /// A smooth stretch of a beam, cut into equal steps.
 #[derive(Clone, Debug)]
 pub struct Piece {
@@ -76,7 +95,7 @@ impl<const W: usize> RodState<W> {
         }
     }
 
-    fn rows(&self, first: usize) -> Lanes<W> {
+    pub(super) fn rows(&self, first: usize) -> Lanes<W> {
         [self.d[first], self.d[first + 1], self.d[first + 2]]
     }
 
@@ -117,13 +136,18 @@ fn dispatch<const W: usize>(piece: &Piece, load: f64, state: &mut RodState<W>) {
 
 /// Entry `stage` of step `step` in a table that holds one entry or one for every stage.
 #[inline(always)]
-fn entry<T>(table: &[T], step: usize, stage: usize) -> &T {
+pub(super) fn entry<T>(table: &[T], step: usize, stage: usize) -> &T {
     if table.len() == 1 { &table[0] } else { &table[step * STAGES + stage] }
 }
 
 /// A quantity `a` that turns with the start frame, with its change: `Rᵀ a` and `Rᵀ(δa - δθ × a)`.
 #[inline(always)]
-fn localised<const W: usize>(r0: &Matrix, a: &[f64; 3], da: &Lanes<W>, dtheta: &Lanes<W>) -> Lanes<W> {
+pub(super) fn localised<const W: usize>(
+    r0: &Matrix,
+    a: &[f64; 3],
+    da: &Lanes<W>,
+    dtheta: &Lanes<W>,
+) -> Lanes<W> {
     let mut local = apply_transposed_lanes(r0, &add(da, &cross_lanes(a, dtheta)));
     let value = apply_transposed(r0, a);
     for i in 0..3 {
@@ -164,13 +188,7 @@ impl<L: Law, const W: usize> Rate<FULL_ROWS, W> for Loaded<'_, L, W> {
         let moment = [y[10], y[11], y[12]];
         let (rate, r, along) = pose_rate(&q, &force, &moment, entry(self.laws, step, stage));
         let sample = entry(self.samples, step, stage);
-        let scaled = |a: &[f64; 3]| [self.load * a[0], self.load * a[1], self.load * a[2]];
-        let zero = [[0.0; W]; 3];
-        let dead = [
-            localised(&self.r0, &scaled(&sample.dead_force), &zero, &self.dtheta),
-            localised(&self.r0, &scaled(&sample.dead_moment), &zero, &self.dtheta),
-        ];
-        let section = [scaled(&sample.section_force), scaled(&sample.section_moment)];
+        let (dead, section) = sample.localised(self.load, &self.r0, &self.dtheta);
         wrench_rate(&rate, &q, &r, &along, &force, &dead, &section)
     }
 }
@@ -211,7 +229,7 @@ fn run<L: Law, const W: usize>(piece: &Piece, laws: &[L], load: f64, state: &mut
 
 /// Puts the end of a piece, found in the piece's start frame, back into global axes.
 #[inline(always)]
-fn globalise<const W: usize>(
+pub(super) fn globalise<const W: usize>(
     r0: &Matrix,
     pose: &State<POSE_ROWS, W>,
     force: &Lanes<W>,
@@ -253,7 +271,7 @@ fn globalise<const W: usize>(
 }
 
 /// The quaternion product `a b`, brought to length one.
-fn unit_product(a: &[f64; 4], b: &[f64; 4]) -> [f64; 4] {
+pub(super) fn unit_product(a: &[f64; 4], b: &[f64; 4]) -> [f64; 4] {
     let vector = cross(&[a[1], a[2], a[3]], &[b[1], b[2], b[3]]);
     let q = [
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
@@ -266,4 +284,4 @@ fn unit_product(a: &[f64; 4], b: &[f64; 4]) -> [f64; 4] {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

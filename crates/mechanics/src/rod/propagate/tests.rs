@@ -1,4 +1,4 @@
-mod dual;
+pub(crate) mod dual;
 
 use super::*;
 

@@ -8,7 +8,7 @@ use num_dual::{Dual64, DualNum};
 type D = Dual64;
 
 /// Rows of the order-eight tableau, one for each stage and one for the result; zeros left out.
-const ROWS: [&[(usize, f64)]; STAGES] = [
+pub(crate) const ROWS: [&[(usize, f64)]; STAGES] = [
     &[(0, 0.05260015195876773)],
     &[(0, 0.0197250569845379), (1, 0.0591751709536137)],
     &[(0, 0.02958758547680685), (2, 0.08876275643042054)],
@@ -72,11 +72,11 @@ const ROWS: [&[(usize, f64)]; STAGES] = [
     ],
 ];
 
-fn cross(a: &[D; 3], b: &[D; 3]) -> [D; 3] {
+pub(crate) fn cross(a: &[D; 3], b: &[D; 3]) -> [D; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-fn matrix(q: &[D; 4]) -> [[D; 3]; 3] {
+pub(crate) fn matrix(q: &[D; 4]) -> [[D; 3]; 3] {
     let [w, x, y, z] = *q;
     let n = w * w + x * x + y * y + z * z;
     let entry = |a: D| a / n;
@@ -87,11 +87,11 @@ fn matrix(q: &[D; 4]) -> [[D; 3]; 3] {
     ]
 }
 
-fn times(r: &[[D; 3]; 3], a: &[D; 3]) -> [D; 3] {
+pub(crate) fn times(r: &[[D; 3]; 3], a: &[D; 3]) -> [D; 3] {
     std::array::from_fn(|i| r[i][0] * a[0] + r[i][1] * a[1] + r[i][2] * a[2])
 }
 
-fn transposed(r: &[[D; 3]; 3]) -> [[D; 3]; 3] {
+pub(crate) fn transposed(r: &[[D; 3]; 3]) -> [[D; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| r[j][i]))
 }
 
