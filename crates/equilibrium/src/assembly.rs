@@ -186,6 +186,12 @@ impl Equilibrium {
         }
         self.evaluate_gears(&mut sink);
         self.evaluate_node_loads(&mut sink);
+        for ([moment, force], slot) in self.kick.0.iter().zip(&self.layout.nodes) {
+            let part = self.kick.1 * self.load;
+            sink.add_residual(slot.unknown, &(moment * part));
+            sink.add_residual(slot.unknown + 3, &(force * part));
+        }
+        self.evaluate_drag(&mut sink);
         self.evaluate_springs(&mut sink);
         self.evaluate_ropes(&mut sink);
         if r.iter().any(|v| !v.is_finite()) {

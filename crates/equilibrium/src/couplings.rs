@@ -99,6 +99,20 @@ impl Equilibrium {
         }
     }
 
+    /// A drag that holds every node back to where it was: `-κ` times its turning and shift since.
+    pub(crate) fn evaluate_drag(&self, sink: &mut Sink<'_>) {
+        let (anchors, strength) = &self.drag;
+        for (anchor, slot) in anchors.iter().zip(&self.layout.nodes) {
+            let pose = read_pose(&self.x, slot.state);
+            let turn = log(&(pose.rotation * anchor.rotation.inverse()));
+            sink.add_residual(slot.unknown, &(-turn * *strength));
+            sink.add_residual(slot.unknown + 3, &((anchor.position - pose.position) * *strength));
+            for i in 0..6 {
+                sink.add_number(slot.unknown + i, slot.unknown + i, -strength);
+            }
+        }
+    }
+
     /// The spring's ends, global, nondimensional.
     pub(crate) fn spring_ends(&self, index: usize) -> [V; 2] {
         self.lowered.springs[index].ends.map(|(node, point)| self.node_pose(node).point(&point))

@@ -29,6 +29,7 @@ mod prepare;
 mod redundancy;
 mod scale;
 mod shooting;
+mod stand;
 mod system;
 mod tangents;
 #[cfg(test)]

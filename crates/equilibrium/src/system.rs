@@ -44,6 +44,10 @@ pub struct Equilibrium {
     pub(crate) last_step: Vec<f64>,
     /// For each joint the closure rows without which its loop closes already; empty where every row is needed.
     pub(crate) slack: Vec<[bool; 6]>,
+    /// Wrenches on the nodes besides the loads, in proportion to these, and how much of them acts: (moment, force) of each node.
+    pub(crate) kick: (Vec<[Vector3<f64>; 2]>, f64),
+    /// Poses of the nodes that a drag holds on to, and how strongly.
+    pub(crate) drag: (Vec<Pose>, f64),
     pub(crate) forced_segments: Option<usize>,
     pub(crate) finest_path: f64,
     pub(crate) counts: Counts,
@@ -98,6 +102,8 @@ impl Equilibrium {
             scratch: Vec::new(),
             last_step: Vec::new(),
             slack: Vec::new(),
+            kick: (Vec::new(), 0.0),
+            drag: (Vec::new(), 0.0),
             forced_segments: None,
             finest_path: f64::INFINITY,
             counts: Counts::default(),

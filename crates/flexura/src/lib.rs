@@ -118,6 +118,6 @@ pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;
 pub use flexura_study::{
     Census, Equilibrium, Family, Options, Outcome, Prepared, ProblemError, Progress, SensitivityError, check,
-    solve, solve_family,
+    equilibria, solve, solve_family,
 };
 pub use solve_file::{Error, Solved, solve_file};

@@ -2,12 +2,14 @@
 //! factorisations behind them. Nothing here knows of beams.
 
 mod chain;
+mod deflation;
 mod dense;
 mod homotopy;
 mod newton;
 mod system;
 
 pub use chain::{BLOCK, Block, Chain};
+pub use deflation::converge_deflated;
 pub use dense::Dense;
 pub use homotopy::{PathEnd, PathOptions, PathWork, follow};
 pub use newton::{NewtonEnd, NewtonOptions, converge};

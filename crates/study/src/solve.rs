@@ -42,7 +42,7 @@ pub struct Progress {
 #[derive(Clone, Debug)]
 pub struct Prepared {
     pub(crate) problem: Equilibrium,
-    path: PathOptions,
+    pub(crate) path: PathOptions,
     /// Derivatives along the unknown parameters, from the last correction of an inverse problem.
     pub(crate) border: Option<Border>,
 }
@@ -62,6 +62,9 @@ pub struct Outcome {
 
 /// Size of the first Newton correction up to which a known state counts as near.
 const NEAR: f64 = 0.5;
+
+/// The same for a result that a user names as the start.
+const NEAR_RESULT: f64 = 2.0;
 
 /// √(F/EI) L beyond which a load is taken for a mistake.
 const LARGEST_PHASE: f64 = 1e4;
@@ -223,6 +226,13 @@ impl Prepared {
         }
     }
 
+    /// From an earlier result to the equilibrium next to it; None if there is none near.
+    pub fn solve_near(&mut self, from: &Solution, tolerance: f64) -> Option<Outcome> {
+        self.problem.stand(from);
+        let outcome = self.finish(tolerance, PathWork { taken: 1, ..PathWork::default() }, NEAR_RESULT);
+        (outcome.status == Status::Converged).then_some(outcome)
+    }
+
     /// From where it stands, which should be near, to `tolerance`; from rest if it is not near.
     pub fn solve_from_here(&mut self, tolerance: f64, progress: &mut dyn FnMut(Progress)) -> Outcome {
         self.problem.set_load(1.0);
@@ -352,12 +362,21 @@ pub fn solve_family(
         _ => None,
     });
     let mut prepared = Prepared::with_probes(model, &probes.collect::<Vec<_>>())?;
-    let outcome = if model.unknowns.is_empty() {
-        prepared.solve(options.tolerance, progress)
-    } else {
-        prepared.solve_inverse(family, options.tolerance, progress)
+    let near = options.from.as_ref().and_then(|from| prepared.solve_near(from, options.tolerance));
+    let far = options.from.is_some() && near.is_none();
+    let outcome = match (near, model.unknowns.is_empty()) {
+        (Some(outcome), true) => outcome,
+        (Some(_), false) => prepared.solve_inverse_from_here(family, options.tolerance),
+        (None, true) => prepared.solve(options.tolerance, progress),
+        (None, false) => prepared.solve_inverse(family, options.tolerance, progress),
     };
     let mut solution = prepared.solution(&outcome, options.samples);
+    if far {
+        solution.warnings.push(
+            "the earlier result is too far from an equilibrium of this model; it was solved from rest"
+                .to_string(),
+        );
+    }
     if outcome.status == Status::Converged {
         prepared.add_tangents(&mut solution, &options.compliances);
         if options.sensitivities {

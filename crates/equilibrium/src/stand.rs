@@ -1,0 +1,176 @@
+//! Putting the mechanism where an earlier result has it, and pushing it off its path.
+
+use crate::lower::{JointOrigin, NodeOrigin};
+use crate::mesh::Level;
+use crate::system::{Equilibrium, write_pose};
+use flexura_mechanics::joint::Kinematics;
+use flexura_nonlinear::System;
+use flexura_solution::{BeamSample, BeamSolution, Solution};
+use flexura_spatial::{Pose, Vector3, Wrench};
+
+impl Equilibrium {
+    /// Puts the mechanism where a result of this or a neighbouring model has it, under the full load. What the result
+    /// does not hold is filled in: between samples by straight lines, so that a few corrections lead back to equilibrium.
+    pub fn stand(&mut self, solution: &Solution) {
+        self.rest();
+        let scale = self.lowered.scale;
+        for (i, span) in self.lowered.spans.iter().enumerate() {
+            let Some(beam) = solution.beams.get(span.beam) else { continue };
+            let mut level = Level::default();
+            for sample in beam.samples.iter().filter(|s| s.s >= span.s[0] && s.s <= span.s[1]) {
+                let wrench = scale.wrench_in(&sample.wrench);
+                level.force = level.force.max(wrench.force.norm());
+                level.moment = level.moment.max(wrench.moment.norm());
+            }
+            self.levels[i] = level;
+        }
+        let counts: Vec<usize> = self
+            .lowered
+            .spans
+            .iter()
+            .zip(&self.levels)
+            .map(|(span, level)| level.segments(&self.lowered.beams[span.beam], span))
+            .collect();
+        self.remesh(&counts);
+        self.stand_on_same_mesh(solution);
+    }
+
+    /// The same without a mesh of its own, so that the state can be compared with others.
+    pub fn stand_on_same_mesh(&mut self, solution: &Solution) {
+        let scale = self.lowered.scale;
+        let mut x = vec![0.0; self.layout.state];
+        let mut poses = Vec::with_capacity(self.lowered.nodes.len());
+        for (node, slot) in self.lowered.nodes.iter().zip(&self.layout.nodes) {
+            let pose = match node.origin {
+                NodeOrigin::Body(i) => solution.bodies.get(i).map(|pose| scale.pose_in(pose)),
+                NodeOrigin::Hub { beam, s } => {
+                    solution.beams.get(beam).and_then(|b| at(b, s)).map(|(pose, _)| scale.pose_in(&pose))
+                }
+            };
+            let pose = pose.unwrap_or(node.initial);
+            write_pose(&mut x, slot.state, &pose);
+            poses.push(pose);
+        }
+        let pose_of = |node: Option<usize>| node.map_or(Pose::identity(), |n| poses[n]);
+        for (span, slots) in self.lowered.spans.iter().zip(&self.layout.spans) {
+            let Some(beam) = solution.beams.get(span.beam) else { continue };
+            let ends = [(0, Some(&span.start), &slots.start), (1, span.end.as_ref(), &slots.end)];
+            for (which, hold, slot) in ends {
+                let (Some(hold), Some((pose, wrench))) = (hold, at(beam, span.s[which])) else { continue };
+                let fixed = pose_of(hold.carrier.node) * hold.carrier.frame;
+                let q = hold.coordinates.joint.nearest(&(fixed.inverse() * scale.pose_in(&pose)));
+                x[slot.state..slot.state + q.len()].copy_from_slice(&q);
+                if which == 0 {
+                    write_wrench(&mut x, slots.wrench.state, &scale.wrench_in(&wrench));
+                }
+            }
+            for (k, inner) in slots.inner.iter().enumerate() {
+                let index = self.layout.spans.iter().position(|s| std::ptr::eq(s, slots)).unwrap_or(0);
+                let s = self.meshes[index].start_of(k + 1);
+                if let Some((pose, wrench)) = at(beam, s) {
+                    write_pose(&mut x, inner.state, &scale.pose_in(&pose));
+                    write_wrench(&mut x, inner.state + 7, &scale.wrench_in(&wrench));
+                }
+            }
+        }
+        for (joint, slots) in self.lowered.joints.iter().zip(&self.layout.joints) {
+            let fixed = pose_of(joint.parent.node) * joint.parent.frame;
+            let child = pose_of(joint.child.node) * joint.child.frame;
+            let mut q = joint.coordinates.joint.nearest(&(fixed.inverse() * child));
+            let wrench = match joint.origin {
+                JointOrigin::Joint(i) => solution.joints.get(i).map(|result| {
+                    let kinds = joint.coordinates.kind.freedoms();
+                    if result.coordinates.len() == kinds {
+                        // As the user reads them: turns beyond half a turn are kept.
+                        let units = joint.coordinates.units;
+                        let values: Vec<f64> =
+                            result.coordinates.iter().zip(units).map(|(v, u)| v / u).collect();
+                        q = joint.coordinates.joint.configuration(&values);
+                    }
+                    result.wrench
+                }),
+                JointOrigin::Hold { beam, start } => solution.beams.get(beam).and_then(|b| {
+                    let sample = if start { b.samples.first() } else { b.samples.last() }?;
+                    Some(if start { -sample.wrench } else { sample.wrench })
+                }),
+            };
+            let slot = slots.coordinates.state;
+            x[slot..slot + q.len()].copy_from_slice(&q);
+            if let Some(wrench) = wrench {
+                write_wrench(&mut x, slots.wrench.state, &scale.wrench_in(&wrench));
+            }
+        }
+        for ((gear, slot), multiplier) in
+            self.lowered.gears.iter().zip(&self.layout.gears).zip(&solution.couplings)
+        {
+            x[slot.state] = multiplier * gear.unit / scale.moment();
+        }
+        for (slot, cable) in self.layout.ropes.iter().zip(&solution.cables) {
+            if let Some(slot) = slot {
+                x[slot.state] = cable.tension / scale.force;
+            }
+        }
+        self.x = x;
+        self.set_load(1.0);
+    }
+
+    /// Wrenches on every node besides the loads, to push the mechanism off its path: `part` of them acts.
+    pub fn set_kick(&mut self, wrenches: Vec<[Vector3<f64>; 2]>, part: f64) {
+        self.kick = (wrenches, part);
+    }
+
+    /// Changes how much of the kick acts.
+    pub fn set_kick_part(&mut self, part: f64) {
+        self.kick.1 = part;
+    }
+
+    /// Puts a drag on every node that holds it back where it is now; a strength of zero takes it off.
+    pub fn set_drag(&mut self, strength: f64) {
+        let poses = self.layout.nodes.iter().map(|slot| crate::system::read_pose(&self.x, slot.state));
+        self.drag = if strength > 0.0 { (poses.collect(), strength) } else { (Vec::new(), 0.0) };
+    }
+
+    /// How far the nodes have gone against the drag: the largest shift over L, or turning in radians.
+    pub fn dragged(&self) -> f64 {
+        let poses = self.layout.nodes.iter().map(|slot| crate::system::read_pose(&self.x, slot.state));
+        let each = poses.zip(&self.drag.0).map(|(pose, anchor)| {
+            let turn = pose.rotation.angle_to(&anchor.rotation);
+            (pose.position - anchor.position).norm().max(turn)
+        });
+        each.fold(0.0, f64::max)
+    }
+
+    /// Number of nodes, and how strong a wrench bends what is tied to each: force and moment, nondimensional.
+    pub fn node_strengths(&self) -> Vec<[f64; 2]> {
+        let mut strengths = vec![[0.0_f64; 2]; self.lowered.nodes.len()];
+        for span in &self.lowered.spans {
+            let [force, moment] = self.lowered.beams[span.beam].wrench_unit;
+            let nodes = [span.start.carrier.node, span.end.as_ref().and_then(|end| end.carrier.node)];
+            for node in nodes.into_iter().flatten() {
+                strengths[node][0] = strengths[node][0].max(force);
+                strengths[node][1] = strengths[node][1].max(moment);
+            }
+        }
+        strengths
+    }
+}
+
+fn write_wrench(x: &mut [f64], at: usize, wrench: &Wrench) {
+    x[at..at + 3].copy_from_slice(wrench.force.as_slice());
+    x[at + 3..at + 6].copy_from_slice(wrench.moment.as_slice());
+}
+
+/// Pose and wrench at `s` (m), by straight lines between the samples; SI.
+fn at(beam: &BeamSolution, s: f64) -> Option<(Pose, Wrench)> {
+    let after = beam.samples.partition_point(|sample| sample.s <= s);
+    let first = beam.samples.get(after.saturating_sub(1))?;
+    let second = beam.samples.get(after).unwrap_or(first);
+    let width = second.s - first.s;
+    let t = if width > 0.0 { (s - first.s) / width } else { 0.0 };
+    let mix = |pick: fn(&BeamSample) -> Vector3<f64>| pick(first) * (1.0 - t) + pick(second) * t;
+    let between = (first.pose.rotation.inverse() * second.pose.rotation).powf(t);
+    Some((
+        Pose::new(first.pose.rotation * between, mix(|sample| sample.pose.position)),
+        Wrench::new(mix(|sample| sample.wrench.force), mix(|sample| sample.wrench.moment)),
+    ))
+}
