@@ -5,10 +5,12 @@ mod chain;
 mod dense;
 mod homotopy;
 mod newton;
+mod sparse;
 mod system;
 
 pub use chain::{BLOCK, Block, Chain};
 pub use dense::Dense;
 pub use homotopy::{PathEnd, PathOptions, PathWork, follow};
 pub use newton::{NewtonEnd, NewtonOptions, converge};
+pub use sparse::{BlockPlace, Sparse};
 pub use system::{Breakdown, System};
