@@ -4,6 +4,7 @@
 mod chain;
 mod dense;
 mod homotopy;
+mod matrix;
 mod newton;
 mod sparse;
 mod system;
@@ -11,6 +12,7 @@ mod system;
 pub use chain::{BLOCK, Block, Chain};
 pub use dense::Dense;
 pub use homotopy::{PathEnd, PathOptions, PathWork, follow};
+pub use matrix::Matrix;
 pub use newton::{NewtonEnd, NewtonOptions, converge};
 pub use sparse::{BlockPlace, Sparse};
 pub use system::{Breakdown, System};

@@ -122,6 +122,11 @@ impl Factors {
         scratch.waiting.clear();
         scratch.row_at.resize(pattern.size(), 0);
         scratch.column_at.resize(pattern.size(), 0);
+        // A few delayed pivots must not make the largest list grow to twice its length.
+        self.numbers.reserve(tree.fill + tree.fill / 64);
+        self.rows.reserve(tree.rows + tree.rows / 64);
+        self.columns.reserve(tree.rows + tree.rows / 64);
+        scratch.stack.reserve(tree.stack + tree.stack / 64);
         let done = self.weigh(pattern).and_then(|()| {
             (0..tree.nodes.len()).try_for_each(|i| self.eliminate(pattern, tree, i, scratch))
         });

@@ -12,7 +12,7 @@
 
 /// Sets of at most so many unknowns are not cut. Below it fronts get so small that their bookkeeping costs more
 /// than the zeros which they no longer hold.
-const LEAF: usize = 48;
+const LEAF: usize = 32;
 /// Separators that hold more than this part of the unknowns of a set are compared with a cut by distance.
 const POOR: f64 = 0.25;
 /// A cut leaves at least this part of the unknowns on either side.

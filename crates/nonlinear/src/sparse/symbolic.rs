@@ -25,6 +25,12 @@ pub(super) struct Tree {
     pub unknowns: Vec<u32>,
     /// Row and number of the entries of the matrix that enter at each front.
     pub entries: Vec<(u32, u32)>,
+    /// Numbers in the factors, if no pivot is delayed.
+    pub fill: usize,
+    /// Rows of all fronts together, likewise.
+    pub rows: usize,
+    /// Most numbers that wait at a time, likewise.
+    pub stack: usize,
 }
 
 impl Tree {
@@ -49,6 +55,7 @@ impl Tree {
         let order = postorder(&children, &is_root);
         let mut tree = Self::default();
         let mut place = vec![0; groups.len()];
+        let (mut waiting, mut height) = (Vec::new(), 0);
         for (k, &g) in order.iter().enumerate() {
             place[g] = k;
             let start = tree.unknowns.len();
@@ -62,6 +69,15 @@ impl Tree {
                 children: children[g].len(),
                 is_root: is_root[g],
             });
+            let (own, rest) = (middle - start, tree.unknowns.len() - middle);
+            tree.fill += own * (own + 2 * rest);
+            tree.rows += own + rest;
+            height -= waiting.drain(waiting.len() - children[g].len()..).sum::<usize>();
+            if !is_root[g] {
+                waiting.push(rest * rest);
+                height += rest * rest;
+            }
+            tree.stack = tree.stack.max(height);
         }
         // An entry enters where the first of its two unknowns is eliminated.
         let node_of = |unknown: usize| place[group_of[block_of[unknown] as usize]];

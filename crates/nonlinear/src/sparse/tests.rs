@@ -93,3 +93,132 @@ fn how_long_lattices_take() {
         );
     }
 }
+
+/// Beams between the nodes of a square lattice: a node's pose has equilibrium in its rows and an empty diagonal
+/// block; a beam's wrench has a compliance, singular along the axis.
+fn beams(side: usize) -> (usize, Vec<BlockPlace>, Vec<(usize, usize, f64)>) {
+    let mut numbers = Numbers(7);
+    let (mut blocks, mut entries) = (Vec::new(), Vec::new());
+    let mut n = 0;
+    let mut block = |place: [f64; 3]| {
+        blocks.push(BlockPlace { first: n, count: 6, place });
+        n += 6;
+        n - 6
+    };
+    let nodes: Vec<usize> = (0..side * side).map(|k| block([(k / side) as f64, (k % side) as f64, 0.0])).collect();
+    for i in 0..side {
+        for j in 0..side {
+            for (di, dj) in [(1, 0), (0, 1)] {
+                if i + di >= side || j + dj >= side {
+                    continue;
+                }
+                let (from, to) = (nodes[i * side + j], nodes[(i + di) * side + j + dj]);
+                let at = block([i as f64 + 0.5 * di as f64, j as f64 + 0.5 * dj as f64, 0.0]);
+                let (x, y) = (di as f64, dj as f64);
+                for k in 0..6 {
+                    let compliance = if k == 3 + dj { 0.0 } else if k < 3 { 1.0 } else { 0.3 };
+                    for l in 0..6 {
+                        let v = if k == l { compliance } else { 0.1 * compliance * numbers.next() };
+                        entries.push((at + k, at + l, -v));
+                    }
+                    entries.push((at + k, from + k, -1.0));
+                    entries.push((at + k, to + k, 1.0));
+                    entries.push((from + k, at + k, 1.0));
+                    entries.push((to + k, at + k, -1.0));
+                }
+                // The lever arm.
+                for (k, l, v) in [(3, 2, -y), (4, 2, x), (5, 0, y), (5, 1, -x)] {
+                    entries.push((at + k, from + l, v));
+                    entries.push((from + l, at + k, -v));
+                }
+            }
+        }
+    }
+    for k in 0..6 {
+        entries.push((nodes[0] + k, nodes[0] + k, 1.0));
+    }
+    (n, blocks, entries)
+}
+
+#[test]
+#[ignore = "a measurement"]
+fn where_dense_and_sparse_cost_the_same() {
+    for side in [2, 3, 4, 5, 6, 7] {
+        let (n, blocks, entries) = beams(side);
+        let (mut sparse, mut dense) = (Sparse::default(), Dense::default());
+        sparse.arrange(n, &blocks);
+        let mut times = [[0.0; 3]; 2];
+        let repeats = 200;
+        for k in 0..repeats + 1 {
+            let t = Instant::now();
+            sparse.reset();
+            for &(i, j, v) in &entries {
+                sparse.add(i, j, v);
+            }
+            let t1 = Instant::now();
+            sparse.factorise().unwrap();
+            let t2 = Instant::now();
+            let mut b = vec![1.0; n];
+            sparse.solve(&mut b);
+            let t3 = Instant::now();
+            dense.reset(n);
+            for &(i, j, v) in &entries {
+                dense.add(i, j, v);
+            }
+            let t4 = Instant::now();
+            dense.factorise().unwrap();
+            let t5 = Instant::now();
+            dense.solve(&mut b);
+            let t6 = Instant::now();
+            if k > 0 {
+                for (i, t) in [t1 - t, t2 - t1, t3 - t2, t4 - t3, t5 - t4, t6 - t5].iter().enumerate() {
+                    times[i / 3][i % 3] += t.as_secs_f64() * 1e6 / repeats as f64;
+                }
+            }
+        }
+        println!("{n}: {times:.1?} us");
+    }
+}
+
+#[test]
+#[ignore = "a measurement"]
+fn how_well_beams_are_solved() {
+    for side in [4, 10, 30, 70] {
+        let (n, blocks, entries) = beams(side);
+        let mut a = Sparse::default();
+        a.arrange(n, &blocks);
+        for &(i, j, v) in &entries {
+            a.add(i, j, v);
+        }
+        let t = Instant::now();
+        let end = a.factorise();
+        let numeric = t.elapsed();
+        let t = Instant::now();
+        let again = a.factorise();
+        println!("{side}: {n} {end:?} {again:?} {numeric:.1?} {:.1?} delayed {} static {} fill {} Gflop {}", t.elapsed(), a.delayed(), a.tree.as_ref().unwrap().fill, a.fill(), a.flops() as f64*1e-9);
+        let x: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
+        let mut b = vec![0.0; n];
+        a.for_each(|i, j, v| b[i] += v * x[j]);
+        let right = b.clone();
+        a.solve(&mut b);
+        for round in 0..3 {
+        let mut r = right.clone();
+        a.for_each(|i, j, v| r[i] -= v * b[j]);
+        let residual = r.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+        let error = b.iter().zip(&x).fold(0.0_f64, |m, (b, x)| m.max((b - x).abs()));
+        println!("   {round}: error {error:.1e} residual {residual:.1e}");
+        a.solve(&mut r);
+        for (b,r) in b.iter_mut().zip(&r) { *b += r; }
+        }
+        if n < 2000 {
+            let mut d = Dense::default();
+            d.reset(n);
+            for &(i, j, v) in &entries { d.row_mut(i)[j] += v; }
+            println!("dense {:?} {} {}", d.factorise(), d.is_positive(), a.is_positive());
+            let mut b = right.clone();
+            d.solve(&mut b);
+            let error = b.iter().zip(&x).fold(0.0_f64, |m, (b, x)| m.max((b - x).abs()));
+            println!("   dense error {error:.1e}");
+        }
+    }
+}
