@@ -1,6 +1,6 @@
 //! The numeric phase: fronts put together and eliminated up the tree, and the solves with what is kept of them.
 
-use super::front::{Bench, Front, eliminate};
+use super::front::{Bench, Front, TINY, eliminate, largest};
 use super::pattern::Pattern;
 use super::symbolic::Tree;
 use crate::Breakdown;
@@ -61,6 +61,8 @@ struct Remainder {
     delayed: usize,
     /// Where its numbers begin on the stack.
     stack: usize,
+    /// The largest number in the pivot rows of its front and those below.
+    growth: f64,
 }
 
 /// Storage that lives through a factorisation only, kept from one to the next.
@@ -203,6 +205,7 @@ impl Factors {
                 }
             }
         }
+        let mut growth = waiting[children..].iter().fold(1.0_f64, |m, child| m.max(child.growth));
         if let Some(child) = waiting.get(children) {
             stack.truncate(child.stack);
             waiting.truncate(children);
@@ -214,14 +217,14 @@ impl Factors {
                 rows: &mut self.rows[list..],
                 columns: &mut self.columns[list..],
                 complete,
+                limit: TINY * growth,
             },
             bench,
         );
         self.flops += (m - pivots..m).map(|k| (k + 2 * k * k) as u64).sum::<u64>();
         self.delayed += complete - pivots;
         if node.is_root && pivots < complete {
-            let finite = front.iter().all(|v| v.is_finite());
-            return Err(if finite { Breakdown::Singular } else { Breakdown::NotFinite });
+            return Err(if all_finite(front) { Breakdown::Singular } else { Breakdown::NotFinite });
         }
         let numbers = self.numbers.len();
         self.numbers.extend_from_slice(&front[..pivots * m]);
@@ -231,6 +234,11 @@ impl Factors {
         if !all_finite(&self.numbers[numbers..]) {
             return Err(Breakdown::NotFinite);
         }
+        // What is left of large numbers that cancel is no pivot either.
+        growth = growth.max(largest(&front[..pivots * m]));
+        if node.is_root && front.iter().step_by(m + 1).any(|v| v.abs() < TINY * growth) {
+            return Err(Breakdown::Singular);
+        }
         self.pieces.push(Piece { size: m, pivots, list, numbers });
         if !node.is_root {
             waiting.push(Remainder {
@@ -238,6 +246,7 @@ impl Factors {
                 size: m - pivots,
                 delayed: complete - pivots,
                 stack: stack.len(),
+                growth,
             });
             for row in front[pivots * m..].chunks_exact(m) {
                 stack.extend_from_slice(&row[pivots..]);

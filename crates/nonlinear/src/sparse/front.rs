@@ -11,8 +11,8 @@ const PANEL: usize = 32;
 const ROWS: usize = 4;
 /// A pivot is at least this part of the largest number in its column, which bounds growth by 1 + 1 / this.
 const THRESHOLD: f64 = 0.01;
-/// Below this, rows having largest entries of about one, a pivot is no pivot.
-const TINY: f64 = 1e-14;
+/// Below this part of the largest number about, a pivot is no pivot.
+pub(super) const TINY: f64 = 1e-14;
 
 /// A front and the unknowns of its rows and columns.
 pub(super) struct Front<'a> {
@@ -22,6 +22,8 @@ pub(super) struct Front<'a> {
     pub columns: &'a mut [u32],
     /// Rows and columns, the leading ones, in which nothing is missing.
     pub complete: usize,
+    /// What is below is no pivot.
+    pub limit: f64,
 }
 
 /// What elimination needs beside the front.
@@ -119,7 +121,7 @@ fn eliminate_panel(front: &mut Front, first: usize, width: usize, panel: &mut [f
     while k < left {
         let column = &panel[k * height..(k + 1) * height];
         let best = largest(&column[k..complete]);
-        if best < TINY || best < THRESHOLD * largest(&column[complete..]) {
+        if best < front.limit || best < THRESHOLD * largest(&column[complete..]) {
             left -= 1;
             swap_columns(front, first + k, first + left, 0..first);
             if k < left {
@@ -158,7 +160,7 @@ fn eliminate_panel(front: &mut Front, first: usize, width: usize, panel: &mut [f
 
 /// The largest magnitude; what is not a number does not count.
 #[inline(always)]
-fn largest(v: &[f64]) -> f64 {
+pub(super) fn largest(v: &[f64]) -> f64 {
     let (chunks, rest) = v.as_chunks::<8>();
     let mut lanes = [0.0_f64; 8];
     for chunk in chunks {

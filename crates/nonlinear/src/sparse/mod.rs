@@ -125,7 +125,8 @@ impl Sparse {
         self.pattern.for_each(f);
     }
 
-    /// Factorises; the entries stay. Singular when a last pivot is below 1e-14 of its row's largest entry.
+    /// Factorises; the entries stay. Singular when a pivot that no front could do without is below 1e-14 of the
+    /// largest number in the pivot rows before it, each row having been scaled to a largest entry of about one.
     pub fn factorise(&mut self) -> Result<(), Breakdown> {
         self.current = false;
         if self.pattern.settle() {

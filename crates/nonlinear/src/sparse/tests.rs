@@ -222,3 +222,26 @@ fn how_well_beams_are_solved() {
         }
     }
 }
+
+#[test]
+#[ignore = "x"]
+fn floating() {
+    for side in [2, 3, 5, 10, 20, 40] {
+        let (n, blocks, mut entries) = beams(side);
+        entries.truncate(entries.len() - 6);
+        let mut a = Sparse::default();
+        a.arrange(n, &blocks);
+        for &(i, j, v) in &entries {
+            a.add(i, j, v);
+        }
+        let end = a.factorise();
+        let mut dd = None;
+        if n < 2000 {
+            let mut d = Dense::default();
+            d.reset(n);
+            for &(i, j, v) in &entries { d.row_mut(i)[j] += v; }
+            dd = Some(d.factorise());
+        }
+        println!("{n}: {end:?} {dd:?}");
+    }
+}
