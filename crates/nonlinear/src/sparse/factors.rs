@@ -129,9 +129,9 @@ impl Factors {
         self.rows.reserve(tree.rows + tree.rows / 64);
         self.columns.reserve(tree.rows + tree.rows / 64);
         scratch.stack.reserve(tree.stack + tree.stack / 64);
-        let done = self.weigh(pattern).and_then(|()| {
-            (0..tree.nodes.len()).try_for_each(|i| self.eliminate(pattern, tree, i, scratch))
-        });
+        let done = self
+            .weigh(pattern)
+            .and_then(|()| (0..tree.nodes.len()).try_for_each(|i| self.eliminate(pattern, tree, i, scratch)));
         match done {
             Ok(()) => self.positive = self.sign(&mut scratch.row_at),
             Err(_) => self.clear(),
@@ -305,9 +305,15 @@ impl Factors {
             gathered.clear();
             gathered.extend(self.rows[list..list + pivots].iter().map(|&i| y[i as usize]));
             gathered.extend(columns[pivots..].iter().map(|&i| x[i as usize]));
-            for (k, row) in self.numbers[numbers..][..pivots * size].chunks_exact(size).enumerate().rev() {
-                let value = (gathered[k] - dot(&row[k + 1..], &gathered[k + 1..])) / row[k];
-                gathered[k] = value;
+            let (done, rest) = gathered.split_at_mut(pivots);
+            let upper = &self.numbers[numbers..][..pivots * size];
+            // As much as can be is done forward through memory, which is faster.
+            for (to, row) in done.iter_mut().zip(upper.chunks_exact(size)) {
+                *to -= dot(&row[pivots..], rest);
+            }
+            for (k, row) in upper.chunks_exact(size).enumerate().rev() {
+                let value = (done[k] - dot(&row[k + 1..pivots], &done[k + 1..])) / row[k];
+                done[k] = value;
                 x[columns[k] as usize] = value;
             }
         }

@@ -252,3 +252,65 @@ fn product<const C: usize>(l: &[[f64; ROWS]], u: &[[f64; C]]) -> [[f64; C]; ROWS
     }
     sum
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A front of `m` rows whose first columns vanish in the complete rows.
+    fn example(m: usize, complete: usize, weak: usize) -> Vec<f64> {
+        let mut a: Vec<f64> = (0..m * m).map(|k| ((k * k + 3 * k) as f64).sin()).collect();
+        for i in 0..complete {
+            a[i * m..i * m + weak].fill(0.0);
+        }
+        a
+    }
+
+    fn run(
+        a: &mut [f64],
+        m: usize,
+        complete: usize,
+        f: fn(&mut Front, &mut Bench) -> usize,
+    ) -> (usize, Vec<u32>) {
+        let (mut rows, mut columns): (Vec<u32>, Vec<u32>) =
+            ((0..m as u32).collect(), (0..m as u32).collect());
+        let mut front = Front { a, rows: &mut rows, columns: &mut columns, complete, limit: TINY };
+        let pivots = f(&mut front, &mut Bench::default());
+        rows.append(&mut columns);
+        (pivots, rows)
+    }
+
+    #[test]
+    fn both_builds_give_equal_bits() {
+        for (m, complete, weak) in [(1, 1, 0), (7, 3, 1), (61, 40, 0), (150, 101, 7), (133, 133, 0)] {
+            let (mut one, mut other) = (example(m, complete, weak), example(m, complete, weak));
+            let first = run(&mut one, m, complete, eliminate);
+            assert_eq!(first, run(&mut other, m, complete, eliminate_by::<4>));
+            assert!(one.iter().zip(&other).all(|(a, b)| a.to_bits() == b.to_bits()));
+        }
+    }
+
+    /// Rows times columns of what is left must be what was there.
+    #[test]
+    fn factors_and_remainder_give_the_front_back_and_weak_columns_are_left_over() {
+        for (m, complete, weak) in [(7, 3, 1), (61, 40, 0), (150, 101, 7), (150, 40, 40)] {
+            let before = example(m, complete, weak);
+            let mut a = before.clone();
+            let (pivots, lists) = run(&mut a, m, complete, eliminate);
+            assert_eq!(pivots, complete - weak);
+            let (rows, columns) = lists.split_at(m);
+            assert!(columns[pivots..complete].iter().all(|&j| (j as usize) < weak));
+            for i in 0..m {
+                for j in 0..m {
+                    let steps = pivots.min(i).min(j);
+                    let product: f64 = (0..steps).map(|k| a[i * m + k] * a[k * m + j]).sum();
+                    let diagonal = if i < pivots && i <= j { a[i * m + j] } else { 0.0 };
+                    let lower = if j < pivots && i > j { a[i * m + j] * a[j * m + j] } else { 0.0 };
+                    let rest = if i >= pivots && j >= pivots { a[i * m + j] } else { 0.0 };
+                    let there = before[rows[i] as usize * m + columns[j] as usize];
+                    assert!((product + diagonal + lower + rest - there).abs() < 1e-11);
+                }
+            }
+        }
+    }
+}

@@ -1,247 +1,282 @@
 use super::*;
 use crate::Dense;
-use std::time::Instant;
 
-/// A linear congruential generator: the same numbers on every machine.
-struct Numbers(u64);
+mod examples;
+mod growth;
+mod measurements;
 
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+use examples::{Example, Numbers, beams, lattice, network};
+
+/// Solves an example both ways and compares solutions, beside the condition, and signs.
+fn compare(example: &Example) -> Sparse {
+    let n = example.n;
+    let mut sparse = example.sparse();
+    let mut dense = Dense::default();
+    dense.reset(n);
+    for &(i, j, v) in &example.entries {
+        dense.add(i, j, v);
     }
-}
-
-/// The entries of a lattice of blocks of six that touch their next neighbours.
-fn lattice(sides: [usize; 3]) -> (Vec<BlockPlace>, Vec<(usize, usize)>) {
-    let number = |i: usize, j: usize, k: usize| (i * sides[1] + j) * sides[2] + k;
-    let (mut blocks, mut pairs) = (Vec::new(), Vec::new());
-    for i in 0..sides[0] {
-        for j in 0..sides[1] {
-            for k in 0..sides[2] {
-                let me = number(i, j, k);
-                blocks.push(BlockPlace { first: 6 * me, count: 6, place: [i as f64, j as f64, k as f64] });
-                pairs.push((me, me));
-                for (di, dj, dk) in [(1, 0, 0), (0, 1, 0), (0, 0, 1)] {
-                    if i + di < sides[0] && j + dj < sides[1] && k + dk < sides[2] {
-                        pairs.push((me, number(i + di, j + dj, k + dk)));
-                        pairs.push((number(i + di, j + dj, k + dk), me));
-                    }
-                }
-            }
+    let norm = (0..n).map(|i| dense.row(i).iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max);
+    dense.factorise().unwrap();
+    sparse.factorise().unwrap();
+    assert_eq!(sparse.is_positive(), dense.is_positive());
+    let mut inverse = vec![0.0; n];
+    for j in 0..n {
+        let mut unit = vec![0.0; n];
+        unit[j] = 1.0;
+        dense.solve(&mut unit);
+        for (sum, v) in inverse.iter_mut().zip(&unit) {
+            *sum += v.abs();
         }
     }
-    (blocks, pairs)
+    let condition = norm * inverse.iter().fold(0.0, |m, v| v.max(m));
+    let mut numbers = Numbers(5);
+    let x: Vec<f64> = (0..n).map(|_| numbers.next()).collect();
+    let mut b = example.times(&x);
+    sparse.solve(&mut b);
+    for (b, x) in b.iter().zip(&x) {
+        assert!((b - x).abs() < 1e-14 * condition, "{b} for {x}, condition {condition:.1e}");
+    }
+    sparse
+}
+
+/// A matrix of `n` unknowns in one block each on a line.
+fn line(n: usize, entries: &[(usize, usize, f64)]) -> Example {
+    let blocks = (0..n).map(|i| BlockPlace { first: i, count: 1, place: [i as f64, 0.0, 0.0] }).collect();
+    Example { n, blocks, entries: entries.to_vec() }
 }
 
 #[test]
-#[ignore = "a measurement"]
-fn how_long_lattices_take() {
-    for sides in [[32, 32, 1], [100, 100, 1], [173, 173, 1], [20, 20, 20]] {
-        let (blocks, pairs) = lattice(sides);
-        let n = 6 * blocks.len();
-        let mut a = Sparse::default();
-        a.arrange(n, &blocks);
-        let fill = |a: &mut Sparse| {
-            let mut numbers = Numbers(1);
-            for &(p, q) in &pairs {
-                for i in 0..6 {
-                    for j in 0..6 {
-                        let strong = if p == q && i == j { 3.0 } else { 0.0 };
-                        a.add(6 * p + i, 6 * q + j, numbers.next() + strong);
-                    }
-                }
-            }
-        };
-        let t = Instant::now();
-        fill(&mut a);
-        let first = t.elapsed();
-        let t = Instant::now();
-        a.reset();
-        fill(&mut a);
-        let again = t.elapsed();
-        let t = Instant::now();
-        a.pattern.settle();
-        let settle = t.elapsed();
-        let t = Instant::now();
-        a.tree = Some(Arc::new(Tree::new(&a.pattern, &a.blocks)));
-        let symbolic = t.elapsed();
-        let t = Instant::now();
-        a.factorise().unwrap();
-        let numeric1 = t.elapsed();
-        let t = Instant::now();
-        a.factorise().unwrap();
-        let numeric = t.elapsed();
-        let x: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
-        let mut b = vec![0.0; n];
-        a.for_each(|i, j, v| b[i] += v * x[j]);
-        let t = Instant::now();
-        a.solve(&mut b);
-        let solve = t.elapsed();
-        let error = b.iter().zip(&x).fold(0.0_f64, |m, (b, x)| m.max((b - x).abs()));
-        println!(
-            "{sides:?}: assembly {first:.1?} then {again:.1?}, settle {settle:.1?}, symbolic {symbolic:.1?}, \
-             numeric {numeric1:.1?} then {numeric:.1?} ({:.2} Gflop, {:.1} Gflop/s), solve {solve:.1?}, \
-             fill {:.1}M, memory {} MB, scratch {} MB, delayed {}, error {error:.1e}, fronts {}, nodes",
-            a.flops() as f64 * 1e-9,
-            a.flops() as f64 * 1e-9 / numeric.as_secs_f64(),
-            a.fill() as f64 * 1e-6,
-            a.memory() >> 20,
-            a.scratch.memory() >> 20,
-            a.delayed(),
-            a.tree.as_ref().unwrap().nodes.len(),
-        );
+fn networks_with_empty_diagonal_blocks_are_solved_like_dense_matrices() {
+    let (mut delayed, mut positive) = (0, 0);
+    for seed in 0..40 {
+        let sparse = compare(&network(seed, 3 + seed as usize / 2));
+        delayed += sparse.delayed();
+        positive += usize::from(sparse.is_positive());
     }
-}
-
-/// Beams between the nodes of a square lattice: a node's pose has equilibrium in its rows and an empty diagonal
-/// block; a beam's wrench has a compliance, singular along the axis.
-fn beams(side: usize) -> (usize, Vec<BlockPlace>, Vec<(usize, usize, f64)>) {
-    let mut numbers = Numbers(7);
-    let (mut blocks, mut entries) = (Vec::new(), Vec::new());
-    let mut n = 0;
-    let mut block = |place: [f64; 3]| {
-        blocks.push(BlockPlace { first: n, count: 6, place });
-        n += 6;
-        n - 6
-    };
-    let nodes: Vec<usize> = (0..side * side).map(|k| block([(k / side) as f64, (k % side) as f64, 0.0])).collect();
-    for i in 0..side {
-        for j in 0..side {
-            for (di, dj) in [(1, 0), (0, 1)] {
-                if i + di >= side || j + dj >= side {
-                    continue;
-                }
-                let (from, to) = (nodes[i * side + j], nodes[(i + di) * side + j + dj]);
-                let at = block([i as f64 + 0.5 * di as f64, j as f64 + 0.5 * dj as f64, 0.0]);
-                let (x, y) = (di as f64, dj as f64);
-                for k in 0..6 {
-                    let compliance = if k == 3 + dj { 0.0 } else if k < 3 { 1.0 } else { 0.3 };
-                    for l in 0..6 {
-                        let v = if k == l { compliance } else { 0.1 * compliance * numbers.next() };
-                        entries.push((at + k, at + l, -v));
-                    }
-                    entries.push((at + k, from + k, -1.0));
-                    entries.push((at + k, to + k, 1.0));
-                    entries.push((from + k, at + k, 1.0));
-                    entries.push((to + k, at + k, -1.0));
-                }
-                // The lever arm.
-                for (k, l, v) in [(3, 2, -y), (4, 2, x), (5, 0, y), (5, 1, -x)] {
-                    entries.push((at + k, from + l, v));
-                    entries.push((from + l, at + k, -v));
-                }
-            }
-        }
-    }
-    for k in 0..6 {
-        entries.push((nodes[0] + k, nodes[0] + k, 1.0));
-    }
-    (n, blocks, entries)
+    assert!(delayed > 100);
+    assert!((5..35).contains(&positive));
 }
 
 #[test]
-#[ignore = "a measurement"]
-fn where_dense_and_sparse_cost_the_same() {
-    for side in [2, 3, 4, 5, 6, 7] {
-        let (n, blocks, entries) = beams(side);
-        let (mut sparse, mut dense) = (Sparse::default(), Dense::default());
-        sparse.arrange(n, &blocks);
-        let mut times = [[0.0; 3]; 2];
-        let repeats = 200;
-        for k in 0..repeats + 1 {
-            let t = Instant::now();
+fn lattices_of_beams_are_solved_like_dense_matrices() {
+    for sides in [[2, 1, 1], [9, 1, 1], [5, 4, 1], [3, 3, 2]] {
+        compare(&beams(sides));
+        compare(&lattice(sides));
+    }
+}
+
+#[test]
+fn parts_without_connection_are_solved_side_by_side() {
+    let mut all = Example::default();
+    for seed in 0..6 {
+        let part = network(seed, 5 + seed as usize);
+        all.entries.extend(part.entries.iter().map(|&(i, j, v)| (i + all.n, j + all.n, v)));
+        all.blocks.extend(part.blocks.iter().map(|b| BlockPlace { first: b.first + all.n, ..*b }));
+        all.n += part.n;
+    }
+    compare(&all);
+}
+
+#[test]
+fn blocks_need_not_cover_the_unknowns_nor_have_places() {
+    let mut example = network(3, 12);
+    for block in &mut example.blocks {
+        block.place = [f64::NAN, 0.0, 1.0];
+    }
+    compare(&example);
+    example.blocks.truncate(4);
+    compare(&example);
+    example.blocks.clear();
+    compare(&example);
+}
+
+#[test]
+fn one_block_is_a_dense_matrix() {
+    let mut numbers = Numbers(9);
+    for n in [1, 2, 17, 70, 101] {
+        let mut example = Example { n, ..Example::default() };
+        example.blocks.push(BlockPlace { first: 0, count: n, place: [0.0; 3] });
+        example.entries.extend((0..n * n).map(|k| (k / n, k % n, numbers.next())));
+        compare(&example);
+    }
+}
+
+#[test]
+fn an_exchange_of_rows_and_a_change_of_sign_turn_the_determinant() {
+    let mut example = beams([4, 4, 1]);
+    let sign = compare(&example).is_positive();
+    for entry in &mut example.entries {
+        entry.0 = [1, 0].get(entry.0).copied().unwrap_or(entry.0);
+    }
+    assert_eq!(compare(&example).is_positive(), !sign);
+    for entry in &mut example.entries {
+        if entry.1 == 20 {
+            entry.2 = -entry.2;
+        }
+    }
+    assert_eq!(compare(&example).is_positive(), sign);
+}
+
+#[test]
+fn rows_may_differ_by_hundreds_of_orders_of_magnitude() {
+    let mut example = beams([4, 3, 1]);
+    let n = example.n;
+    let x: Vec<f64> = (0..n).map(|i| (i as f64).cos()).collect();
+    for entry in &mut example.entries {
+        entry.2 *= [1e-280, 1.0, 1e250, 1e-20][entry.0 % 4];
+    }
+    let mut b = example.times(&x);
+    let mut sparse = example.sparse();
+    sparse.factorise().unwrap();
+    sparse.solve(&mut b);
+    for (b, x) in b.iter().zip(&x) {
+        assert!((b - x).abs() < 1e-10);
+    }
+}
+
+#[test]
+fn what_has_no_inverse_is_refused() {
+    let singular = |example: &Example| assert_eq!(example.sparse().factorise(), Err(Breakdown::Singular));
+    // Empty, an empty row, an empty column, two columns in one row, equal rows.
+    singular(&line(3, &[]));
+    singular(&line(3, &[(0, 0, 1.0), (1, 1, 1.0), (1, 2, 1.0)]));
+    singular(&line(2, &[(0, 0, 1.0), (1, 0, 1.0)]));
+    singular(&line(3, &[(0, 0, 1.0), (1, 1, 1.0), (2, 0, 1.0)]));
+    singular(&line(3, &[(0, 0, 1.0), (0, 1, 2.0), (1, 0, 1.0), (1, 1, 2.0), (2, 2, 1.0)]));
+    // A part that hangs on nothing.
+    let mut part = beams([5, 5, 1]);
+    part.entries.retain(|e| e.0 >= 6 || e.1 >= 6);
+    singular(&part);
+    // A lattice that floats: its pivots vanish only up to round-off.
+    for side in [3, 12, 25] {
+        let mut floating = beams([side, side, 1]);
+        floating.entries.truncate(floating.entries.len() - 6);
+        singular(&floating);
+    }
+    // After a failure there are no factors.
+    let mut sparse = line(2, &[(0, 0, 1.0), (1, 0, 1.0)]).sparse();
+    assert!(sparse.factorise().is_err());
+    let mut b = [1.0, 1.0];
+    sparse.solve(&mut b);
+    assert!(b.iter().all(|v| v.is_nan()));
+}
+
+#[test]
+fn what_is_no_number_is_refused() {
+    for wrong in [f64::NAN, f64::INFINITY] {
+        let mut example = beams([4, 4, 1]);
+        example.entries[100].2 = wrong;
+        assert_eq!(example.sparse().factorise(), Err(Breakdown::NotFinite));
+    }
+}
+
+#[test]
+fn nothing_has_a_positive_determinant() {
+    let mut sparse = Sparse::default();
+    for _ in 0..2 {
+        assert_eq!(sparse.factorise(), Ok(()));
+        assert!(sparse.is_positive());
+        sparse.solve(&mut []);
+        sparse.arrange(0, &[]);
+    }
+}
+
+#[test]
+fn assembly_follows_calls_that_change() {
+    let example = beams([6, 5, 1]);
+    let mut sparse = example.sparse();
+    sparse.factorise().unwrap();
+    let mut numbers = Numbers(2);
+    let extra: Vec<_> = (0..30).map(|k| (7 * k, 400 - 11 * k, numbers.next())).collect();
+    let half = example.entries.len() / 2;
+    // The same, in another order, with less, with more than ever, with less again, each one twice.
+    let mut sequences = vec![example.entries.clone(); 5];
+    sequences[1].reverse();
+    sequences[2].remove(half);
+    sequences[3].splice(half..half, extra);
+    for sequence in &sequences {
+        for _ in 0..2 {
             sparse.reset();
-            for &(i, j, v) in &entries {
+            for &(i, j, v) in sequence {
                 sparse.add(i, j, v);
             }
-            let t1 = Instant::now();
+            let present = Example { entries: sequence.clone(), ..example.clone() };
+            let x: Vec<f64> = (0..example.n).map(|i| (i as f64).sin()).collect();
+            let mut b = present.times(&x);
+            let mut product = vec![0.0; example.n];
+            sparse.for_each(|i, j, v| product[i] += v * x[j]);
+            assert!(b.iter().zip(&product).all(|(a, b)| (a - b).abs() < 1e-12));
             sparse.factorise().unwrap();
-            let t2 = Instant::now();
-            let mut b = vec![1.0; n];
+            let mut fresh = present.sparse();
+            fresh.factorise().unwrap();
+            assert_eq!(sparse.is_positive(), fresh.is_positive());
             sparse.solve(&mut b);
-            let t3 = Instant::now();
-            dense.reset(n);
-            for &(i, j, v) in &entries {
-                dense.add(i, j, v);
-            }
-            let t4 = Instant::now();
-            dense.factorise().unwrap();
-            let t5 = Instant::now();
-            dense.solve(&mut b);
-            let t6 = Instant::now();
-            if k > 0 {
-                for (i, t) in [t1 - t, t2 - t1, t3 - t2, t4 - t3, t5 - t4, t6 - t5].iter().enumerate() {
-                    times[i / 3][i % 3] += t.as_secs_f64() * 1e6 / repeats as f64;
-                }
-            }
-        }
-        println!("{n}: {times:.1?} us");
-    }
-}
-
-#[test]
-#[ignore = "a measurement"]
-fn how_well_beams_are_solved() {
-    for side in [4, 10, 30, 70] {
-        let (n, blocks, entries) = beams(side);
-        let mut a = Sparse::default();
-        a.arrange(n, &blocks);
-        for &(i, j, v) in &entries {
-            a.add(i, j, v);
-        }
-        let t = Instant::now();
-        let end = a.factorise();
-        let numeric = t.elapsed();
-        let t = Instant::now();
-        let again = a.factorise();
-        println!("{side}: {n} {end:?} {again:?} {numeric:.1?} {:.1?} delayed {} static {} fill {} Gflop {}", t.elapsed(), a.delayed(), a.tree.as_ref().unwrap().fill, a.fill(), a.flops() as f64*1e-9);
-        let x: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
-        let mut b = vec![0.0; n];
-        a.for_each(|i, j, v| b[i] += v * x[j]);
-        let right = b.clone();
-        a.solve(&mut b);
-        for round in 0..3 {
-        let mut r = right.clone();
-        a.for_each(|i, j, v| r[i] -= v * b[j]);
-        let residual = r.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
-        let error = b.iter().zip(&x).fold(0.0_f64, |m, (b, x)| m.max((b - x).abs()));
-        println!("   {round}: error {error:.1e} residual {residual:.1e}");
-        a.solve(&mut r);
-        for (b,r) in b.iter_mut().zip(&r) { *b += r; }
-        }
-        if n < 2000 {
-            let mut d = Dense::default();
-            d.reset(n);
-            for &(i, j, v) in &entries { d.row_mut(i)[j] += v; }
-            println!("dense {:?} {} {}", d.factorise(), d.is_positive(), a.is_positive());
-            let mut b = right.clone();
-            d.solve(&mut b);
-            let error = b.iter().zip(&x).fold(0.0_f64, |m, (b, x)| m.max((b - x).abs()));
-            println!("   dense error {error:.1e}");
+            assert!(b.iter().zip(&x).all(|(b, x)| (b - x).abs() < 1e-9));
         }
     }
 }
 
 #[test]
-#[ignore = "x"]
-fn floating() {
-    for side in [2, 3, 5, 10, 20, 40] {
-        let (n, blocks, mut entries) = beams(side);
-        entries.truncate(entries.len() - 6);
-        let mut a = Sparse::default();
-        a.arrange(n, &blocks);
-        for &(i, j, v) in &entries {
-            a.add(i, j, v);
-        }
-        let end = a.factorise();
-        let mut dd = None;
-        if n < 2000 {
-            let mut d = Dense::default();
-            d.reset(n);
-            for &(i, j, v) in &entries { d.row_mut(i)[j] += v; }
-            dd = Some(d.factorise());
-        }
-        println!("{n}: {end:?} {dd:?}");
+fn a_matrix_gives_equal_bits_whenever_it_is_factorised() {
+    let example = network(11, 60);
+    let solve = |sparse: &mut Sparse| {
+        let mut b: Vec<f64> = (0..example.n).map(|i| (i as f64).sin()).collect();
+        sparse.solve(&mut b);
+        b.iter().map(|v| v.to_bits()).collect::<Vec<_>>()
+    };
+    let mut sparse = example.sparse();
+    sparse.factorise().unwrap();
+    let first = solve(&mut sparse);
+    assert_eq!(first, solve(&mut sparse));
+    // Again with the storage of before, and put together in another order.
+    sparse.factorise().unwrap();
+    assert_eq!(first, solve(&mut sparse));
+    sparse.reset();
+    for &(i, j, v) in example.entries.iter().rev() {
+        sparse.add(i, j, v);
     }
+    sparse.factorise().unwrap();
+    assert_eq!(first, solve(&mut sparse));
+    let mut turned =
+        Example { entries: example.entries.iter().rev().copied().collect(), ..example.clone() }.sparse();
+    turned.factorise().unwrap();
+    assert_eq!(first, solve(&mut turned));
+    // A copy over another matrix.
+    let mut kept = beams([3, 3, 1]).sparse();
+    kept.factorise().unwrap();
+    kept.clone_from(&sparse);
+    assert_eq!(first, solve(&mut kept));
+}
+
+#[test]
+fn factors_outlive_the_entries() {
+    let example = beams([8, 8, 1]);
+    let x: Vec<f64> = (0..example.n).map(|i| (i as f64).sin()).collect();
+    let mut b = example.times(&x);
+    let mut sparse = example.sparse();
+    sparse.factorise().unwrap();
+    sparse.reset();
+    sparse.add(0, 0, 1.0);
+    sparse.solve(&mut b);
+    assert!(b.iter().zip(&x).all(|(b, x)| (b - x).abs() < 1e-8));
+}
+
+#[test]
+fn weak_pivots_are_mended_by_one_refinement() {
+    let example = beams([70, 70, 1]);
+    let mut sparse = example.sparse();
+    sparse.factorise().unwrap();
+    let x: Vec<f64> = (0..example.n).map(|i| (i as f64).sin()).collect();
+    let b = example.times(&x);
+    let mut solution = b.clone();
+    sparse.solve(&mut solution);
+    let mut r = vec![0.0; example.n];
+    assert!(residual(&sparse.pattern, &solution, &b, &mut r) < 1e-14);
+    // Without it.
+    sparse.current = false;
+    let mut rough = b.clone();
+    sparse.solve(&mut rough);
+    let backward = residual(&sparse.pattern, &rough, &b, &mut r);
+    assert!(backward > REFINED && backward < 1e-9, "{backward:.1e}");
 }
