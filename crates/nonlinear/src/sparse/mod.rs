@@ -8,8 +8,8 @@
 //! front up the tree. Pivots are sought among the rows that are complete in the front; where those are weak
 //! beside the others the unknown is left to the parent, so that the zero diagonals of constraints do no harm.
 //!
-//! It is deterministic: equal matrices, put together in any order, give equal factors, and the sign of the
-//! determinant is that of an exact count of exchanges.
+//! It is deterministic: equal entries in an equal pattern give equal bits, on any x86-64 processor, and the sign of
+//! the determinant is that of an exact count of exchanges.
 //!
 //! Absent: several threads, factors out of memory, symmetric factors at half the cost, orderings of graphs
 //! without places better than cuts by distance, columns scaled, estimates of the condition, and static pivoting;

@@ -137,6 +137,7 @@ impl Pattern {
         for call in &mut self.calls {
             call.slot = slot_of[call.slot as usize];
         }
+        self.calls.shrink_to_fit();
         true
     }
 

@@ -15,8 +15,8 @@ fn exponent(small: [f64; 3], large: [f64; 3], k: usize) -> f64 {
 
 /// George counts 31/4 m log2 m numbers in a Cholesky factor of a plane lattice of m points and 829/84 m^1.5
 /// multiplications. LU of blocks of b holds 2 b^2 as many and takes 4 b^3 operations for one multiplication. Small
-/// lattices, which have more rim, need less, so that the exponents come from above;
-/// delayed pivots add a third to the work of beams.
+/// lattices, which have more rim, need less, so that the exponents come from above. Delayed pivots and the beams'
+/// own unknowns add a third to the work of beams.
 #[test]
 fn on_plane_lattices_fill_grows_like_n_log_n_and_work_like_n_to_three_halves() {
     for example in [lattice, beams] {

@@ -14,6 +14,7 @@ fn how_long_lattices_take() {
         ("beams 22 x 22", beams([22, 22, 1])),
         ("beams 70 x 70", beams([70, 70, 1])),
         ("beams 15 x 15 x 15", beams([15, 15, 15])),
+        ("network of 2000", network(1, 2000)),
     ] {
         let n = example.n;
         let mut laps = Vec::new();
