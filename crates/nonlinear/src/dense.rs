@@ -3,7 +3,7 @@
 use crate::Breakdown;
 
 /// A square matrix and its factorisation, storage kept from one use to the next.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Dense {
     n: usize,
     a: Vec<f64>,
@@ -11,6 +11,21 @@ pub struct Dense {
     scale: Vec<f64>,
     work: Vec<f64>,
     positive: bool,
+}
+
+impl Clone for Dense {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    fn clone_from(&mut self, from: &Self) {
+        (self.n, self.positive) = (from.n, from.positive);
+        self.a.clone_from(&from.a);
+        self.order.clone_from(&from.order);
+        self.scale.clone_from(&from.scale);
+    }
 }
 
 impl Dense {
@@ -27,6 +42,7 @@ impl Dense {
     }
 
     /// Row `i`, before factorisation.
+    #[inline]
     pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
         &mut self.a[i * self.n..(i + 1) * self.n]
     }
@@ -34,6 +50,12 @@ impl Dense {
     /// Row `i`, before factorisation.
     pub fn row(&self, i: usize) -> &[f64] {
         &self.a[i * self.n..(i + 1) * self.n]
+    }
+
+    /// Adds to an entry, before factorisation.
+    #[inline]
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.row_mut(row)[column] += value;
     }
 
     /// Factorises in place. Singular when a pivot is below 1e-14 of its row's largest entry.

@@ -5,12 +5,16 @@ mod chain;
 mod deflation;
 mod dense;
 mod homotopy;
+mod matrix;
 mod newton;
+mod sparse;
 mod system;
 
 pub use chain::{BLOCK, Block, Chain};
 pub use deflation::converge_deflated;
 pub use dense::Dense;
 pub use homotopy::{PathEnd, PathOptions, PathWork, follow};
+pub use matrix::Matrix;
 pub use newton::{NewtonEnd, NewtonOptions, converge};
+pub use sparse::{BlockPlace, Sparse};
 pub use system::{Breakdown, System};
