@@ -21,7 +21,7 @@ use crate::lower::{Carrier, Hold};
 use crate::shooting::{Plain, SegmentEnd, carry_columns, carry_plain, jump, plain, pose_of, wrench_of};
 use crate::system::Equilibrium;
 use flexura_mechanics::joint::{Configuration, Kinematics, MAX_FREEDOMS};
-use flexura_nonlinear::{Block, Breakdown, Dense};
+use flexura_nonlinear::{Block, Breakdown, Matrix};
 use flexura_spatial::{Pose, Twist, UnitQuaternion, Vector3, Wrench, log};
 
 type V = Vector3<f64>;
@@ -174,7 +174,7 @@ impl Equilibrium {
         let mut r = std::mem::take(&mut self.r);
         r.fill(0.0);
         if tangent {
-            matrix.reset(self.layout.interface);
+            matrix.reset();
         }
         let mut sink = Sink { r: &mut r, matrix: tangent.then_some(&mut matrix) };
         let mut outcome = Ok(());
@@ -278,10 +278,10 @@ impl Equilibrium {
         }
         if let Some(matrix) = sink.matrix.as_deref_mut() {
             for i in 0..12 {
-                let row = matrix.row_mut(last.unknown + i);
-                self.head_unknowns(span, |k, unknown| row[unknown] += chain.left_head[i][k]);
+                let row = last.unknown + i;
+                self.head_unknowns(span, |k, unknown| matrix.add(row, unknown, chain.left_head[i][k]));
                 for j in 0..12 {
-                    row[last.unknown + j] += chain.left_state[i][j];
+                    matrix.add(row, last.unknown + j, chain.left_state[i][j]);
                 }
             }
         }
@@ -335,9 +335,8 @@ impl Equilibrium {
             for i in skip..6 {
                 sink.r[base + i - skip] += all[i / 3][i % 3];
                 if let Some(matrix) = sink.matrix.as_deref_mut() {
-                    let row = matrix.row_mut(base + i - skip);
                     for (unknown, column) in columns() {
-                        row[unknown] += column[6 + i];
+                        matrix.add(base + i - skip, unknown, column[6 + i]);
                     }
                 }
             }
@@ -480,7 +479,7 @@ fn gap(end: &Plain, next: &Plain) -> [f64; 12] {
 /// Where residual and, if wanted, tangent go.
 pub(crate) struct Sink<'a> {
     pub r: &'a mut [f64],
-    pub matrix: Option<&'a mut Dense>,
+    pub matrix: Option<&'a mut Matrix>,
 }
 
 impl Sink<'_> {
@@ -493,14 +492,14 @@ impl Sink<'_> {
     pub fn add(&mut self, row: usize, column: usize, v: &V) {
         if let Some(matrix) = self.matrix.as_deref_mut() {
             for i in 0..3 {
-                matrix.row_mut(row + i)[column] += v[i];
+                matrix.add(row + i, column, v[i]);
             }
         }
     }
 
     pub fn add_number(&mut self, row: usize, column: usize, v: f64) {
         if let Some(matrix) = self.matrix.as_deref_mut() {
-            matrix.row_mut(row)[column] += v;
+            matrix.add(row, column, v);
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::error::ProblemError;
 use crate::lower::{JointOrigin, NodeOrigin};
 use crate::system::Equilibrium;
 use flexura_model::CoordinateKind;
-use flexura_nonlinear::{Breakdown, System};
+use flexura_nonlinear::{Breakdown, Matrix, System};
 use nalgebra::DMatrix;
 
 /// What the model is: unknowns against equations.
@@ -23,6 +23,9 @@ const RANK: f64 = 1e-11;
 
 /// Part of a null vector from which something counts as moved by it.
 pub(crate) const SEEN: f64 = 1e-6;
+
+/// Unknowns up to which a null space is found by a dense decomposition.
+const LARGEST_DENSE: usize = 600;
 
 /// Width over thickness from which a strip counts as wide.
 const WIDE: f64 = 10.0;
@@ -150,7 +153,11 @@ impl Equilibrium {
         // A factorised matrix is spoilt; evaluate it once more and leave it whole.
         let _ = self.evaluate(true);
         let n = self.layout.interface;
-        let matrix = DMatrix::from_fn(n, n, |i, j| self.tangent.row(i)[j]);
+        if n > LARGEST_DENSE {
+            return sparse_null_space(&mut self.tangent, n);
+        }
+        let mut matrix = DMatrix::zeros(n, n);
+        self.tangent.for_each(|i, j, value| matrix[(i, j)] += value);
         null_space_of(matrix)
     }
 
@@ -274,6 +281,47 @@ pub(crate) fn null_space_of(matrix: DMatrix<f64>) -> Vec<Vec<f64>> {
     let largest = svd.singular_values.max();
     let small = svd.singular_values.iter().enumerate().filter(|(_, value)| **value <= RANK * largest);
     small.map(|(k, _)| (0..n).map(|j| vt[(k, j)]).collect()).collect()
+}
+
+/// Null vectors of a large matrix by inverse iteration with a slightly shifted one; some of them, if they are many.
+fn sparse_null_space(matrix: &mut Matrix, n: usize) -> Vec<Vec<f64>> {
+    const VECTORS: usize = 8;
+    const SHIFT: f64 = 1e-8;
+    let mut entries = Vec::new();
+    let mut scale = vec![0.0_f64; n];
+    matrix.for_each(|i, j, value| {
+        entries.push((i, j, value));
+        scale[i] = scale[i].max(value.abs());
+    });
+    for (i, size) in scale.iter().enumerate() {
+        matrix.add(i, i, SHIFT * size.max(1e-3));
+    }
+    if matrix.factorise().is_err() {
+        return Vec::new();
+    }
+    let start = |k: usize| -> Vec<f64> { (0..n).map(|i| ((i * (2 * k + 3) + k) as f64).sin()).collect() };
+    let mut vectors: Vec<Vec<f64>> = (0..VECTORS).map(start).collect();
+    for _ in 0..4 {
+        for k in 0..VECTORS {
+            let (done, rest) = vectors.split_at_mut(k);
+            let v = &mut rest[0];
+            v.iter_mut().zip(&scale).for_each(|(v, s)| *v *= s.max(1e-3));
+            matrix.solve(v);
+            for other in done.iter() {
+                let along: f64 = other.iter().zip(v.iter()).map(|(a, b)| a * b).sum();
+                v.iter_mut().zip(other).for_each(|(v, o)| *v -= along * o);
+            }
+            let length = v.iter().map(|v| v * v).sum::<f64>().sqrt();
+            v.iter_mut().for_each(|v| *v /= length);
+        }
+    }
+    // What the matrix does not take to nothing is no null vector.
+    vectors.retain(|v| {
+        let mut image = vec![0.0; n];
+        entries.iter().for_each(|(i, j, value)| image[*i] += value * v[*j]);
+        image.iter().zip(&scale).all(|(x, s)| x.abs() <= 1e-6 * s)
+    });
+    vectors
 }
 
 fn unnamed() -> ProblemError {

@@ -9,6 +9,8 @@
 use crate::coordinates::Coordinates;
 use crate::lower::{Lowered, RopeLaw};
 use crate::mesh::SpanMesh;
+use flexura_nonlinear::BlockPlace;
+use flexura_spatial::Vector3;
 
 /// Where a pose lies: seven numbers of the state, six unknowns (turning, shift).
 #[derive(Clone, Copy, Debug)]
@@ -119,6 +121,34 @@ impl Counter {
 }
 
 impl Layout {
+    /// The unknowns of the interface in blocks, with where they lie in the undeformed mechanism: what the sparse
+    /// factorisation orders its elimination by.
+    pub fn blocks(&self, lowered: &Lowered) -> Vec<BlockPlace> {
+        let mut blocks = Vec::new();
+        let mut add = |first: usize, end: usize, place: Vector3<f64>| {
+            blocks.push(BlockPlace { first, count: end - first, place: place.into() });
+        };
+        for (node, slot) in lowered.nodes.iter().zip(&self.nodes) {
+            add(slot.unknown, slot.unknown + 6, node.initial.position);
+        }
+        for (span, slots) in lowered.spans.iter().zip(&self.spans) {
+            let ends = span.s.map(|s| lowered.rest_pose(span.beam, s).position);
+            // Coordinates, wrench, coordinates and the last inner state follow each other.
+            let last = slots.inner.last().filter(|inner| inner.unknown < self.interface);
+            let end = last.map_or(slots.end.unknown + slots.end.count, |inner| inner.unknown + 12);
+            add(slots.start.unknown, end, (ends[0] + ends[1]) * 0.5);
+        }
+        for (joint, slots) in lowered.joints.iter().zip(&self.joints) {
+            let place = lowered.carrier_pose(&joint.parent).position;
+            add(slots.coordinates.unknown, slots.wrench.unknown + 6, place);
+        }
+        let numbers = self.gears.iter().chain(self.ropes.iter().flatten());
+        for slot in numbers {
+            add(slot.unknown, slot.unknown + 1, Vector3::zeros());
+        }
+        blocks
+    }
+
     pub fn new(lowered: &Lowered, meshes: &[SpanMesh]) -> Self {
         let mut counter = Counter { state: 0, unknown: 0 };
         let nodes = lowered.nodes.iter().map(|_| counter.pose()).collect();

@@ -73,8 +73,17 @@ impl Equilibrium {
         let rows: Vec<usize> = (0..self.layout.interface).filter(|i| !closures.contains(i)).collect();
         // Rows of zeros make it tall enough for all of its null vectors.
         let height = rows.len().max(closures.len());
-        let matrix = DMatrix::from_fn(height, closures.len(), |i, j| {
-            rows.get(i).map_or(0.0, |row| self.tangent.row(*row)[closures[j]])
+        let mut matrix = DMatrix::zeros(height, closures.len());
+        let place = |list: &[usize], n: usize| {
+            let mut place = vec![None; n];
+            list.iter().enumerate().for_each(|(i, at)| place[*at] = Some(i));
+            place
+        };
+        let (row, column) = (place(&rows, self.layout.interface), place(&closures, self.layout.interface));
+        self.tangent.for_each(|i, j, value| {
+            if let (Some(i), Some(j)) = (row[i], column[j]) {
+                matrix[(i, j)] += value;
+            }
         });
         let places: Vec<usize> = joints.iter().flat_map(|j| j.wrench.state..j.wrench.state + 6).collect();
         for vector in null_space_of(matrix) {

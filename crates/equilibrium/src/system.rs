@@ -8,7 +8,7 @@ use crate::mesh::{Level, SpanMesh};
 use crate::shooting::{Plain, SegmentEnd};
 use flexura_mechanics::joint::Configuration;
 use flexura_model::{BeamPoint, LoadId, LoadTarget, Model};
-use flexura_nonlinear::{BLOCK, Breakdown, Chain, Dense, System};
+use flexura_nonlinear::{BLOCK, Breakdown, Chain, Matrix, System};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, exp, log};
 
 /// A model made ready to be solved, again and again, from rest or from where it stands.
@@ -26,10 +26,10 @@ pub struct Equilibrium {
     pub(crate) accuracy: f64,
     /// Internal force at the start of each determinate span at full load.
     pub(crate) known_force: Vec<Vector3<f64>>,
-    pub(crate) tangent: Dense,
+    pub(crate) tangent: Matrix,
     pub(crate) chains: Vec<Chain>,
     /// An earlier tangent, factorised.
-    kept: (Dense, Vec<Chain>),
+    kept: (Matrix, Vec<Chain>),
     pub(crate) gaps: Vec<Vec<[f64; BLOCK]>>,
     /// Residual of the interface equations.
     pub(crate) r: Vec<f64>,
@@ -90,9 +90,9 @@ impl Equilibrium {
             load: 0.0,
             accuracy: 1.0,
             known_force: Vec::new(),
-            tangent: Dense::default(),
+            tangent: Matrix::default(),
             chains: Vec::new(),
-            kept: (Dense::default(), Vec::new()),
+            kept: (Matrix::default(), Vec::new()),
             gaps: Vec::new(),
             r: Vec::new(),
             ends: Vec::new(),
@@ -238,7 +238,7 @@ impl Equilibrium {
     }
 
     /// The Newton step that a factorised tangent gives for the last residual.
-    fn step_with(&mut self, tangent: &mut Dense, chains: &mut [Chain], step: &mut [f64]) {
+    fn step_with(&mut self, tangent: &mut Matrix, chains: &mut [Chain], step: &mut [f64]) {
         self.counts.newton_steps += 1;
         let n = self.layout.interface;
         let mut rhs = std::mem::take(&mut self.scratch);

@@ -198,7 +198,8 @@ fn the_tangent_is_the_derivative_of_the_residual() {
     problem.evaluate(true).unwrap();
     let n = problem.layout.interface;
     assert_eq!(n, problem.unknowns(), "one segment a span");
-    let tangent: Vec<Vec<f64>> = (0..n).map(|i| problem.tangent.row(i).to_vec()).collect();
+    let mut tangent = vec![vec![0.0; n]; n];
+    problem.tangent.for_each(|i, j, value| tangent[i][j] += value);
     let r0 = problem.r.clone();
     let mut kept = Vec::new();
     problem.store(&mut kept);

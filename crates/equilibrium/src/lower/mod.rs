@@ -271,12 +271,12 @@ impl Lowered {
         node.map_or(Pose::identity(), |n| self.nodes[n].initial)
     }
 
-    fn carrier_pose(&self, carrier: &Carrier) -> Pose {
+    pub fn carrier_pose(&self, carrier: &Carrier) -> Pose {
         self.initial(carrier.node) * carrier.frame
     }
 
     /// Stress-free pose of the section at `s`, nondimensional, global.
-    fn rest_pose(&self, beam: usize, s: f64) -> Pose {
+    pub fn rest_pose(&self, beam: usize, s: f64) -> Pose {
         self.beam_rest[beam] * self.scale.pose_in(&self.beams[beam].shape.pose(s))
     }
 }
