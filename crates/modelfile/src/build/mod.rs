@@ -3,9 +3,11 @@
 mod beam;
 mod body;
 mod curve;
+mod joint;
 mod load;
 mod material;
 mod output;
+mod place;
 
 use crate::context::Context;
 use crate::format::{FILE, Key, Named, Shape, Table};
@@ -39,7 +41,7 @@ pub(crate) fn model(context: &mut Context<'_>, overrides: &[(String, String)]) -
     model.sections = each(context, "section", material::section);
     model.bodies = each(context, "body", body::body);
     model.beams = each(context, "beam", beam::beam);
-    model.joints = each(context, "joint", body::joint);
+    model.joints = each(context, "joint", joint::joint);
     model.springs = each(context, "spring", load::spring);
     model.masses = each(context, "mass", load::mass);
     model.loads = each(context, "load", load::load);

@@ -217,7 +217,6 @@ fn meaning(
                 JointKind::Revolute => OF_HINGE,
                 JointKind::Prismatic => OF_SLIDE,
                 JointKind::Spherical => OF_BALL,
-                // The format does not know the others yet.
                 _ => OF_WELD,
             };
             quantity(&mut walk, ProbeTarget::Joint(JointId(position)), list, example)

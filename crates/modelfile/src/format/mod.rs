@@ -1,9 +1,10 @@
 //! The model file's format, written once: the reader, the JSON Schema and the reference page all follow it.
 //!
-//! The statics in [`tables`] and [`attachments`] say which keys there are, what stands behind each, its dimension, whether it
+//! The statics in the files beside this one say which keys there are, what stands behind each, its dimension, whether it
 //! is needed, and give an example. What a builder does with the values is not said here.
 
 mod attachments;
+mod joints;
 mod tables;
 
 use flexura_expression::Dimension;
@@ -116,7 +117,7 @@ pub(crate) enum Shape {
     Choice(&'static [(&'static str, &'static str)]),
     /// The name of something.
     Name(Named),
-    /// The name of a body, or a table that places a frame on it.
+    /// The name of a body, or a table that places a frame on it or on a beam.
     Placed(&'static Table),
     /// A table.
     Table(&'static Table),

@@ -1,6 +1,7 @@
 //! Tables of what a mechanism is made of: file, materials, sections, beams, curves.
 
-use super::attachments::{BODY, END, JOINT, LOAD, MASS, SPRING};
+use super::attachments::{BODY, LOAD, MASS, SPRING};
+use super::joints::{END, JOINT};
 use super::{Key, Named, Need, Shape, Table, Variant, Variants};
 use Need::{Along, Default, Optional, Required};
 use flexura_expression::Dimension as D;
