@@ -3,7 +3,9 @@
 use crate::format::Named;
 use crate::report::{MOST, Problem, Report, Source};
 use crate::tree::{Node, Value};
-use flexura_expression::{Binding, Expression, ExpressionError, Kind, Lowered, Quantity, Reference, nearest};
+use flexura_expression::{
+    Binding, Expression, ExpressionError, Kind, Lowered, Quantity, Reference, function_table, nearest,
+};
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -44,8 +46,16 @@ pub(crate) struct Context<'a> {
 impl<'a> Context<'a> {
     pub(crate) fn new(source: &'a Arc<Source>, folder: &'a Path, root: &'a Node) -> Self {
         let mut names = BTreeMap::new();
-        for named in [Named::Material, Named::Section, Named::Beam, Named::Body, Named::Joint, Named::Spring]
-        {
+        let kinds = [
+            Named::Material,
+            Named::Section,
+            Named::Beam,
+            Named::Body,
+            Named::Joint,
+            Named::Spring,
+            Named::Cable,
+        ];
+        for named in kinds {
             let entries = root.get(named.word()).map_or(&[][..], |entry| entry.node.entries());
             let positions = entries.iter().enumerate().map(|(i, entry)| (entry.key.as_str(), i)).collect();
             names.insert(named, positions);
@@ -167,7 +177,9 @@ impl<'a> Context<'a> {
                 format!("`{shown}` cannot be used here"),
                 reference.span.clone(),
             )
-            .with_hint("results such as `body.slider.position.x` can only be used in [output]"));
+            .with_hint(
+                "results such as `body.slider.position.x` can only be used in [output] and [target]",
+            ));
         };
         self.mark_used("parameter", name);
         match self.parameters.get(name) {
@@ -234,31 +246,39 @@ impl<'a> Context<'a> {
         })
     }
 
-    /// [`Context::lower`], trying each kind of the variable in turn; only the last failure is reported.
+    /// [`Context::lower`], trying the variable as a plain number in SI units, then with its dimension; only the
+    /// last failure is reported.
     pub(crate) fn lower_either(
         &self,
         node: &Node,
         path: &str,
         text: &str,
         variable: &str,
-        kinds: [Kind; 2],
+        kind: Kind,
     ) -> Read<Lowered> {
         if let Ok(expression) = Expression::parse_with_variable(text, variable) {
             let silent = Cell::new(false);
-            let lowered = expression.lower(&mut |reference| match reference.name() {
-                Some(name) if name == variable => Ok(Binding::Variable(kinds[0])),
-                _ => self.parameter(reference, text, &silent).map(Binding::Value),
-            });
-            if let Ok(lowered) = lowered
-                && (lowered.kind == Kind::Plain || lowered.constant().is_some())
-            {
-                return Ok(lowered);
-            }
+            let lower = |kind: Kind| {
+                expression.lower(&mut |reference| match reference.name() {
+                    Some(name) if name == variable => Ok(Binding::Variable(kind)),
+                    _ => self.parameter(reference, text, &silent).map(Binding::Value),
+                })
+            };
+            let plain = lower(Kind::Plain);
             if silent.get() {
                 return Err(Reported);
             }
+            if let Ok(plain) = plain {
+                // `cos(30*s)` can only be meant for a plain number, whatever stands before it.
+                let accepted = plain.kind == Kind::Plain
+                    || plain.constant().is_some()
+                    || lower(kind).is_err_and(|error| is_call(&text[error.span.clone()]));
+                if accepted {
+                    return Ok(plain);
+                }
+            }
         }
-        self.lower(node, path, text, Some((variable, kinds[1])))
+        self.lower(node, path, text, Some((variable, kind)))
     }
 
     /// A constant: a number, or an expression of parameters.
@@ -283,6 +303,12 @@ impl<'a> Context<'a> {
         }
         Ok(Some(quantity))
     }
+}
+
+/// Does the text begin with the call of a function?
+fn is_call(text: &str) -> bool {
+    function_table()
+        .any(|(name, _)| text.strip_prefix(name).is_some_and(|rest| rest.trim_start().starts_with('(')))
 }
 
 /// "did you mean ...", or what there is.

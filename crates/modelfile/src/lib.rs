@@ -146,8 +146,7 @@ impl Document {
 
     /// The names of the parameters, in the order of the file.
     pub fn parameter_names(&self) -> Vec<&str> {
-        let entries = self.root.get("parameter").map_or(&[][..], |entry| entry.node.entries());
-        entries.iter().map(|entry| entry.key.as_str()).collect()
+        parameters::declared(&self.root).iter().map(|declared| declared.name).collect()
     }
 
     /// Where a key stands in the file, for messages about a finished model: the byte range of the deepest

@@ -143,12 +143,9 @@ impl<'c, 'a> Reader<'c, 'a> {
                 .collect();
             if !owners.is_empty() {
                 let message = format!("`{name}` does not go with {} = \"{}\"", variants.by, self.variant);
-                self.context.wrong_with_hint(
-                    &entry.key_span,
-                    &path,
-                    message,
-                    format!("it belongs to {}", list(&owners)),
-                );
+                let hint =
+                    self.inner_hint(name).unwrap_or_else(|| format!("it belongs to {}", list(&owners)));
+                self.context.wrong_with_hint(&entry.key_span, &path, message, hint);
                 return;
             }
         }
@@ -167,6 +164,26 @@ impl<'c, 'a> Reader<'c, 'a> {
             format!("`{name}` is not a known key here"),
             hint,
         );
+    }
+
+    /// Where the key belongs into tables of this one, as that of a coordinate into the coordinate's.
+    fn inner_hint(&self, name: &str) -> Option<String> {
+        let owners: Vec<&&Key> = self
+            .keys
+            .iter()
+            .filter(|key| matches!(key.shape, Shape::Table(table) if table.keys.iter().any(|key| key.name == name)))
+            .filter(|key| self.variant.is_empty() || key.need == Need::Default("free"))
+            .collect();
+        let first = owners.first()?;
+        let Shape::Table(table) = first.shape else { return None };
+        let inner = table.keys.iter().find(|key| key.name == name)?;
+        let names: Vec<String> = owners.iter().map(|key| format!("`{}`", key.name)).collect();
+        Some(format!(
+            "it goes into the table of a coordinate ({}), for example `{} = {{ {name} = {} }}`",
+            names.join(", "),
+            first.name,
+            inner.example
+        ))
     }
 
     fn missing(&self, key: &Key) -> Reported {
@@ -459,7 +476,7 @@ impl<'c, 'a> Reader<'c, 'a> {
                 return Err(self.context.wrong(&node.span, path, message));
             }
         };
-        let lowered = self.context.lower_either(node, path, text, variable, [Kind::Plain, kind])?;
+        let lowered = self.context.lower_either(node, path, text, variable, kind)?;
         if let Some(span) = &lowered.not_finite {
             let span = self.context.inner(node, span);
             return Err(self.context.wrong(&span, path, "the expression gives no finite number"));

@@ -137,22 +137,25 @@ fn named(schema: String) -> String {
 
 fn value(shape: &Shape) -> String {
     match shape {
-        Shape::Number(_) | Shape::Profile(_) | Shape::Function(_) | Shape::Station => refer("number"),
+        Shape::Number(_) | Shape::Profile(_) | Shape::Function(_) | Shape::Station | Shape::AnyNumber => {
+            refer("number")
+        }
         Shape::Stiffness(_) => refer("extended"),
         Shape::Vector(_) | Shape::Profiles(_) => refer("vector"),
-        Shape::Range(_) => list_of("number", 2),
+        Shape::Range(_) | Shape::AnyRange => list_of("number", 2),
         Shape::Quaternion => list_of("number", 4),
         Shape::Matrix6 => list(list_of("number", 6), Some(6), 6),
         Shape::Inertia => any_of([refer("vector"), list(refer("vector"), Some(3), 3)]),
         Shape::PointOrStation => any_of([refer("number"), refer("vector")]),
-        Shape::Text | Shape::Name(_) => type_of("string"),
+        Shape::Offset => list(refer("number"), Some(3), 2),
+        Shape::Text | Shape::Name(_) | Shape::Equation => type_of("string"),
         Shape::Flag => type_of("boolean"),
         Shape::Choice(words) => object(&[("enum", array(words.iter().map(|(word, _)| text(word))))]),
         Shape::Placed(place) => any_of([type_of("string"), table(place)]),
         Shape::Table(inner) => table(inner),
         Shape::Tables(inner) => any_of([table(inner), list(table(inner), None, 0)]),
-        Shape::NamedTables(inner) => named(table(inner)),
-        Shape::NamedNumbers => named(refer("number")),
+        Shape::NamedTables(inner) | Shape::Unknowns(inner) => named(table(inner)),
+        Shape::NamedNumbers | Shape::NamedTargets => named(refer("number")),
         Shape::NamedOutputs => named(type_of("string")),
         Shape::Points => list(refer("vector"), None, 2),
         Shape::Along => list(

@@ -18,8 +18,12 @@ impl Model {
             issues.pose(&format!("{path}.child"), pose);
         }
         if self.same_mount(joint.parent.mount, joint.child) {
-            let what = if matches!(joint.child, Mount::Beam(_)) { "places" } else { "bodies" };
-            issues.add(format!("{path}.child"), format!("a joint must connect two different {what}"));
+            let (what, hint) = match joint.child {
+                Mount::Beam(_) => ("places", "name another beam, body or place along the beam"),
+                _ => ("bodies", "name another body"),
+            };
+            let message = format!("a joint must connect two different {what}");
+            issues.add_with_hint(format!("{path}.child"), message, hint);
         }
         check_law(&joint.law, &path, issues);
     }

@@ -49,7 +49,10 @@ impl Model {
             if !low.is_finite() || !high.is_finite() || low >= high {
                 issues.add(path, format!("must increase, is [{low}, {high}]"));
             } else if parameter.value < low || parameter.value > high {
-                let message = format!("the search begins at {}, which is not in the range", parameter.value);
+                let unit =
+                    if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
+                let message =
+                    format!("the search begins at {}{unit}, which is not in the range", parameter.value);
                 issues.add_with_hint(path, message, "give a `guess` within the range");
             }
         }
@@ -67,7 +70,7 @@ impl Model {
         if unknowns != targets {
             issues.add(
                 if unknowns > targets { "unknown" } else { "target" },
-                format!("as many targets are needed as unknowns, but there are {unknowns} unknowns and {targets} targets"),
+                format!("there must be as many targets as unknowns: unknowns {unknowns}, targets {targets}"),
             );
         }
     }

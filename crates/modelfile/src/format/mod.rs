@@ -5,6 +5,7 @@
 
 mod attachments;
 mod joints;
+mod relations;
 mod tables;
 
 use flexura_expression::Dimension;
@@ -67,6 +68,7 @@ pub(crate) enum Named {
     BodyOrGround,
     Joint,
     Spring,
+    Cable,
 }
 
 impl Named {
@@ -78,6 +80,7 @@ impl Named {
             Named::Body | Named::BodyOrGround => "body",
             Named::Joint => "joint",
             Named::Spring => "spring",
+            Named::Cable => "cable",
         }
     }
 }
@@ -129,6 +132,18 @@ pub(crate) enum Shape {
     NamedNumbers,
     /// A table of named expressions over results.
     NamedOutputs,
+    /// A table of unknown parameters.
+    Unknowns(&'static Table),
+    /// A table of values, named by expressions over results.
+    NamedTargets,
+    /// A number of the dimension of something else.
+    AnyNumber,
+    /// Two such numbers.
+    AnyRange,
+    /// Two expressions of joint coordinates with an equals sign between them.
+    Equation,
+    /// Three lengths, or two lengths or expressions of s.
+    Offset,
     /// A list of points.
     Points,
     /// Rows of dimensions along the beam, keys as in the same table.
@@ -147,6 +162,7 @@ impl Shape {
             | Shape::Stiffness(d)
             | Shape::Profiles(d)
             | Shape::Function(d) => *d,
+            Shape::Offset => Dimension::LENGTH,
             _ => Dimension::NUMBER,
         }
     }
@@ -183,6 +199,12 @@ impl Shape {
             Shape::NamedTables(_) => "named tables".into(),
             Shape::NamedNumbers => "named numbers".into(),
             Shape::NamedOutputs => "named expressions".into(),
+            Shape::Unknowns(_) => "named tables".into(),
+            Shape::NamedTargets => "numbers, named by expressions over results".into(),
+            Shape::AnyNumber => "a number of the parameter's dimension".into(),
+            Shape::AnyRange => "two numbers of the parameter's dimension".into(),
+            Shape::Equation => "an equation between joint coordinates".into(),
+            Shape::Offset => "three lengths, or two lengths or expressions of s".into(),
             Shape::Points => "a list of points, each three numbers (m)".into(),
             Shape::Along => "a list of rows, each `at` and the dimensions there".into(),
             Shape::Version => "the number 1".into(),
@@ -194,7 +216,7 @@ impl Shape {
         match self {
             Shape::Name(_) | Shape::Choice(_) => "a text".into(),
             Shape::Vector(_) | Shape::Profiles(_) => "a list of 3 numbers".into(),
-            Shape::Range(_) => "a list of 2 numbers".into(),
+            Shape::Range(_) | Shape::AnyRange => "a list of 2 numbers".into(),
             Shape::Quaternion => "a list of 4 numbers".into(),
             other => other.describe(),
         }

@@ -2,6 +2,7 @@
 
 use super::attachments::{BODY, LOAD, MASS, SPRING};
 use super::joints::{END, JOINT};
+use super::relations::{CABLE, COUPLING, UNKNOWN};
 use super::{Key, Named, Need, Shape, Table, Variant, Variants};
 use Need::{Along, Default, Optional, Required};
 use flexura_expression::Dimension as D;
@@ -53,7 +54,20 @@ pub(crate) static FILE: Table = table(
             "{ slider = { ... } }",
             "Rigid bodies; `ground` is there without being named.",
         ),
-        key("joint", Shape::NamedTables(&JOINT), Optional, "{ way = { ... } }", "Joints between bodies."),
+        key(
+            "joint",
+            Shape::NamedTables(&JOINT),
+            Optional,
+            "{ way = { ... } }",
+            "Joints between bodies or beams.",
+        ),
+        key(
+            "coupling",
+            Shape::NamedTables(&COUPLING),
+            Optional,
+            "{ mesh = { ... } }",
+            "Linear relations between joint coordinates.",
+        ),
         key(
             "spring",
             Shape::NamedTables(&SPRING),
@@ -61,6 +75,7 @@ pub(crate) static FILE: Table = table(
             "{ ligament = { ... } }",
             "Springs between two points.",
         ),
+        key("cable", Shape::NamedTables(&CABLE), Optional, "{ flexor = { ... } }", "Cables (tendons)."),
         key("mass", Shape::NamedTables(&MASS), Optional, "{ sensor = { ... } }", "Lumped masses on beams."),
         key("load", Shape::NamedTables(&LOAD), Optional, "{ push = { ... } }", "Forces and moments."),
         key(
@@ -69,6 +84,20 @@ pub(crate) static FILE: Table = table(
             Optional,
             "{ w = \"beam.link.end.position.z\" }",
             "What to read off a result.",
+        ),
+        key(
+            "unknown",
+            Shape::Unknowns(&UNKNOWN),
+            Optional,
+            "{ push = { guess = \"1 N\" } }",
+            "An inverse problem: parameters to be found, as many as there are targets.",
+        ),
+        key(
+            "target",
+            Shape::NamedTargets,
+            Optional,
+            "{ \"body.slider.position.x\" = \"140 mm\" }",
+            "Wanted values of results; each key is an expression over results as in [output], or over `output.NAME`.",
         ),
     ],
 );
