@@ -28,6 +28,7 @@ pub fn reference_markdown() -> String {
         inner.reverse();
         open.extend(inner);
     }
+    page.push_str(REPEATING);
     page.push_str(RESULTS);
     words(&mut page);
     page
@@ -86,6 +87,23 @@ fn rows(page: &mut String, keys: &[Key]) {
     }
     page.push('\n');
 }
+
+const REPEATING: &str = "## Repeating\n\n\
+    Every named table may have `repeat`, which names indices and makes a table for every combination of them: `{ i = 10 }` runs \
+    from 0 to 9, `{ i = [1, 10] }` from 1 to 10, and the numbers may be expressions of parameters. In the table's name and in \
+    every text inside, an expression in braces is replaced by its value, a whole number.\n\n\
+    ```toml\n\
+    [body.\"n_{i}_{j}\"]\n\
+    repeat = { i = \"cells + 1\", j = 3 }\n\
+    at = [\"{i}*10 mm\", \"{j}*10 mm\", 0]\n\n\
+    [beam.\"h_{i}_{j}\"]\n\
+    repeat = { i = \"cells\", j = 3 }\n\
+    material = \"steel\"\n\
+    section = \"strip\"\n\
+    length = \"10 mm\"\n\
+    start = { body = \"n_{i}_{j}\", hold = \"clamp\" }\n\
+    end = { body = \"n_{i+1}_{j}\", hold = \"clamp\" }\n\
+    ```\n\n";
 
 const RESULTS: &str = "## Results in `[output]` and `[target]`\n\n\
     | what | quantities |\n|---|---|\n\

@@ -19,15 +19,19 @@ use crate::reader::Reader;
 use crate::tree::{Entry, Value};
 use flexura_model::{Model, Parameter, name_problem};
 use flexura_spatial::Vector3;
+use std::collections::BTreeSet;
 
-/// Reads the whole file. None: something is wrong, which has been recorded.
-pub(crate) fn model(context: &mut Context<'_>, overrides: &[(String, String)]) -> Option<Model> {
-    let root = context.root;
+/// Evaluates the parameters, on which everything else may depend.
+pub(crate) fn parameters(context: &mut Context<'_>, overrides: &[(String, String)]) {
     for word in ["parameter", "unknown"] {
         named_entries(context, word);
     }
     parameters::evaluate(context, overrides);
-    let context = &*context;
+}
+
+/// Reads the whole file. None: something is wrong, which has been recorded.
+pub(crate) fn model(context: &Context<'_>) -> Option<Model> {
+    let root = context.root;
     let file = Reader::open_node(context, root, &(0..0), &FILE, "").ok()?;
     let mut model = Model {
         name: file.text("name").ok().flatten().unwrap_or_default().to_string(),
@@ -71,6 +75,9 @@ pub(crate) fn model(context: &mut Context<'_>, overrides: &[(String, String)]) -
         return None;
     }
     for issue in model.validate() {
+        if context.is_full() {
+            break;
+        }
         let span = root.locate(&issue.path).unwrap_or(0..0);
         let mut problem = context.problem(&span, &issue.path, issue.message);
         problem.hint = issue.hint;
@@ -143,13 +150,19 @@ pub(crate) fn unused(context: &Context<'_>) -> Vec<crate::report::Problem> {
         ("section", ""),
         (Named::Body.word(), " and nothing holds or loads it"),
     ];
+    // A repeated table is told once.
+    let mut told = BTreeSet::new();
     for (word, more) in kinds {
         for entry in context.root.get(word).map_or(&[][..], |entry| entry.node.entries()) {
-            if !context.is_used(word, &entry.key) {
-                let path = format!("{word}.{}", entry.key);
-                let message = format!("the {word} `{}` is never used{more}", entry.key);
-                warnings.push(context.problem(&entry.key_span, &path, message).warning());
+            if context.is_used(word, &entry.key) {
+                continue;
             }
+            let path = format!("{word}.{}", entry.key);
+            if context.is_copy(&path) && !told.insert(entry.key_span.start) {
+                continue;
+            }
+            let message = format!("the {word} `{}` is never used{more}", entry.key);
+            warnings.push(context.problem(&entry.key_span, &path, message).warning());
         }
     }
     warnings.sort_by_key(|warning| warning.span.start);

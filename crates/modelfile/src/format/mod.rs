@@ -132,6 +132,8 @@ pub(crate) enum Shape {
     NamedNumbers,
     /// A table of named expressions over results.
     NamedOutputs,
+    /// The indices of a repeated table.
+    Repeat,
     /// A table of unknown parameters.
     Unknowns(&'static Table),
     /// A table of values, named by expressions over results.
@@ -199,6 +201,7 @@ impl Shape {
             Shape::NamedTables(_) => "named tables".into(),
             Shape::NamedNumbers => "named numbers".into(),
             Shape::NamedOutputs => "named expressions".into(),
+            Shape::Repeat => "indices, each with a count or its first and last value".into(),
             Shape::Unknowns(_) => "named tables".into(),
             Shape::NamedTargets => "numbers, named by expressions over results".into(),
             Shape::AnyNumber => "a number of the parameter's dimension".into(),

@@ -102,6 +102,15 @@ pub(crate) static FILE: Table = table(
     ],
 );
 
+/// What every named table may have; it is gone before the table is read.
+pub(crate) const REPEAT: Key = key(
+    "repeat",
+    Shape::Repeat,
+    Optional,
+    "{ i = 10, j = [1, 5] }",
+    "Makes a table for every combination of the indices; `{i}` in the name and in texts becomes a number.",
+);
+
 pub(crate) static MATERIAL: Table = table(
     "A linear elastic, isotropic material. Give `shear` or `poisson`.",
     &[
