@@ -36,12 +36,10 @@ pub fn reference_markdown() -> String {
 
 fn below(title: &str, table: &'static Table) -> Vec<(String, &'static Table)> {
     let path = |name: &str| if title.is_empty() { name.to_string() } else { format!("{title}.{name}") };
-    let inner = |key: &'static Key| match key.shape {
-        Shape::NamedTables(table) | Shape::Unknowns(table) => {
-            Some((path(&format!("{}.NAME", key.name)), table))
-        }
-        Shape::Table(table) | Shape::Tables(table) | Shape::Placed(table) => Some((path(key.name), table)),
-        _ => None,
+    let inner = |key: &'static Key| {
+        let named = matches!(key.shape, Shape::NamedTables(_) | Shape::Unknowns(_));
+        let title = if named { format!("{}.NAME", key.name) } else { key.name.to_string() };
+        Some((path(&title), key.shape.table()?))
     };
     table.all_keys().filter_map(inner).collect()
 }

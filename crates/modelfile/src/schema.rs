@@ -141,6 +141,7 @@ fn value(shape: &Shape) -> String {
         Shape::Number(_) | Shape::Profile(_) | Shape::Function(_) | Shape::Station | Shape::AnyNumber => {
             refer("number")
         }
+        Shape::Notched(_) => any_of(std::iter::once(refer("number")).chain(shape.table().map(table))),
         Shape::Stiffness(_) => refer("extended"),
         Shape::Vector(_) | Shape::Profiles(_) => refer("vector"),
         Shape::Range(_) | Shape::AnyRange => list_of("number", 2),

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use flexura_model::{
-    At, CableLaw, Coupling, Drive, Guide, JointKind, Model, Mount, ProbeTarget, Profile, Quantity,
+    At, CableLaw, Coupling, Drive, Guide, JointKind, Model, Mount, NotchShape, ProbeTarget, Profile,
+    Quantity, Shape,
 };
 use flexura_modelfile::Document;
 
@@ -346,4 +347,33 @@ fn quantities_have_their_dimensions_and_components() {
         let probe = output.probes[0];
         assert_eq!((probe.quantity, probe.component), (quantity, component), "{text}");
     }
+}
+
+#[test]
+fn a_dimension_may_be_a_notch() {
+    let sections = r#"
+[section.a]
+shape = "rectangle"
+width = "10 mm"
+height = { notch = "circular", thickness = "0.5 mm", radius = "2 mm", at = 0.5 }
+[section.b]
+shape = "rectangle"
+width = { notch = "elliptic", thickness = "0.5 mm", semi_axis_along = "4 mm", semi_axis_across = "1 mm" }
+height = "5 mm"
+[section.c]
+shape = "circle"
+diameter = { notch = "corner_filleted", thickness = "radius/10", radius = "1 mm", length = "8 mm", at = "10 mm" }
+"#;
+    let model = model(sections);
+    let Shape::Rectangle { height: Profile::Notch(notch), .. } = &model.sections[1].shape else { panic!() };
+    assert_eq!(
+        (notch.shape, notch.center),
+        (NotchShape::Circular { radius: 0.002 }, Some(At::Fraction(0.5)))
+    );
+    let Shape::Rectangle { width: Profile::Notch(notch), .. } = &model.sections[2].shape else { panic!() };
+    assert_eq!((notch.shape, notch.center), (NotchShape::Elliptic { along: 0.004, across: 0.001 }, None));
+    let Shape::Circle { diameter: Profile::Notch(notch) } = &model.sections[3].shape else { panic!() };
+    assert_eq!(notch.shape, NotchShape::CornerFilleted { radius: 0.001, length: Some(0.008) });
+    close(notch.thickness, 0.002);
+    close(notch.rim(), 0.004);
 }

@@ -127,9 +127,13 @@ fn check_notch_along(notch: &Notch, path: &str, length: f64, beam: &str, issues:
             "make the beam as long as the notch, or say by `at` where its middle is",
         );
     } else if from < -margin || to > length + margin {
-        issues.add(
+        let middle = notch.middle(length);
+        issues.add_with_hint(
             path,
-            format!("the notch reaches from {from} m to {to} m, but beam `{beam}` from 0 to {length} m"),
+            format!(
+                "a notch {own} m long with its middle at {middle} m does not lie on beam `{beam}`, which is {length} m long"
+            ),
+            "move it by `at`, or make the beam longer",
         );
     }
 }

@@ -6,6 +6,7 @@
 mod attachments;
 mod joints;
 mod relations;
+mod sections;
 mod tables;
 
 use flexura_expression::Dimension;
@@ -98,7 +99,9 @@ pub(crate) enum Shape {
     Quaternion,
     /// A number or an expression of s.
     Profile(Dimension),
-    /// The same, where `inf` is allowed.
+    /// The same, or the table of a notch.
+    Notched(Dimension),
+    /// A number or an expression of s, where `inf` is allowed.
     Stiffness(Dimension),
     /// Three numbers or expressions of s.
     Profiles(Dimension),
@@ -155,12 +158,26 @@ pub(crate) enum Shape {
 }
 
 impl Shape {
+    /// The table that may stand behind the key.
+    pub(crate) fn table(&self) -> Option<&'static Table> {
+        match self {
+            Shape::Notched(_) => Some(&sections::NOTCH),
+            Shape::Table(table)
+            | Shape::Tables(table)
+            | Shape::Placed(table)
+            | Shape::NamedTables(table)
+            | Shape::Unknowns(table) => Some(table),
+            _ => None,
+        }
+    }
+
     pub(crate) fn dimension(&self) -> Dimension {
         match self {
             Shape::Number(d)
             | Shape::Vector(d)
             | Shape::Range(d)
             | Shape::Profile(d)
+            | Shape::Notched(d)
             | Shape::Stiffness(d)
             | Shape::Profiles(d)
             | Shape::Function(d) => *d,
@@ -182,6 +199,7 @@ impl Shape {
             Shape::Range(_) => numbers("two", "numbers"),
             Shape::Quaternion => "four numbers".into(),
             Shape::Profile(_) => format!("{dimension} or an expression of s"),
+            Shape::Notched(_) => format!("{dimension}, an expression of s, or the table of a notch"),
             Shape::Stiffness(_) => format!("{dimension}, `inf`, or an expression of s"),
             Shape::Profiles(_) => numbers("three", "numbers or expressions of s"),
             Shape::Matrix6 => "six rows of six numbers".into(),
