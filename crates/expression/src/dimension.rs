@@ -54,6 +54,12 @@ named! {
     FORCE_PER_VOLUME = (-2, 1, -2, 0, 0), "a force per volume", "N/m^3";
     POWER = (2, 1, -3, 0, 0), "a power", "W";
     TEMPERATURE = (0, 0, 0, 1, 0), "a temperature", "K";
+    PITCH = (1, 0, 0, 0, -1), "a length per angle", "m/rad";
+    FORCE_PER_ANGLE = (1, 1, -2, 0, -1), "a force per angle", "N/rad";
+    COMPLIANCE = (0, -1, 2, 0, 0), "a compliance", "m/N";
+    TURN_PER_FORCE = (-1, -1, 2, 0, 1), "an angle per force", "rad/N";
+    LENGTH_PER_MOMENT = (-1, -1, 2, 0, 0), "a length per moment", "1/N";
+    ANGULAR_COMPLIANCE = (-2, -1, 2, 0, 1), "an angular compliance", "rad/N/m";
 }
 
 impl Dimension {
@@ -72,11 +78,13 @@ impl Dimension {
         self.is_number() && self.exponents[4] != 0
     }
 
-    pub(crate) fn times(&self, other: &Dimension) -> Dimension {
+    /// The dimension of a product.
+    pub fn times(&self, other: &Dimension) -> Dimension {
         self.combine(other, 1)
     }
 
-    pub(crate) fn over(&self, other: &Dimension) -> Dimension {
+    /// The dimension of a quotient.
+    pub fn over(&self, other: &Dimension) -> Dimension {
         self.combine(other, -1)
     }
 

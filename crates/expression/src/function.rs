@@ -71,6 +71,17 @@ impl Formula {
         Self { text: format!("slot {slot}"), program: Program { instructions } }
     }
 
+    /// The same formula with slot k renamed to `slots[k]`.
+    pub fn renamed(&self, slots: &[usize]) -> Self {
+        let mut renamed = self.clone();
+        for instruction in &mut renamed.program.instructions {
+            if let crate::program::Instruction::Slot(slot) = instruction {
+                *slot = slots.get(*slot).copied().unwrap_or(usize::MAX);
+            }
+        }
+        renamed
+    }
+
     /// The value with the given slot values; NaN where a slot is missing.
     pub fn evaluate(&self, slots: &[f64]) -> f64 {
         self.program.run(0.0, slots)

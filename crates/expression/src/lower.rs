@@ -6,7 +6,7 @@ use crate::{Dimension, Expression, ExpressionError, Formula, Function, Kind, Qua
 use std::ops::Range;
 
 /// What a reference stands for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Binding {
     /// A known value.
     Value(Quantity),
@@ -14,6 +14,8 @@ pub enum Binding {
     Variable(Kind),
     /// A slot of a formula.
     Slot(usize, Kind),
+    /// A formula over the same slots.
+    Formula(Formula, Kind),
 }
 
 /// An expression with everything bound.
@@ -66,6 +68,10 @@ impl Expression {
                     }
                     Binding::Variable(kind) => lowering.push(Instruction::Variable, kind),
                     Binding::Slot(slot, kind) => lowering.push(Instruction::Slot(slot), kind),
+                    Binding::Formula(formula, kind) => {
+                        lowering.operands.push(Operand { kind, begin: lowering.code.len() });
+                        lowering.code.extend(formula.program.instructions);
+                    }
                 },
                 Node::Negate => {
                     let kind = lowering.kinds(1)[0];

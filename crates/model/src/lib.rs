@@ -12,6 +12,7 @@ mod inverse;
 mod joint;
 mod load;
 mod material;
+mod notch;
 mod output;
 mod profile;
 mod validate;
@@ -25,6 +26,7 @@ pub use joint::{
 };
 pub use load::{Attachment, BeamPoint, Load, LoadFrame, LoadTarget, PointMass, Spring, SpringLaw};
 pub use material::{Material, Section, Shape};
+pub use notch::{Notch, NotchShape};
 pub use output::{Output, Probe, ProbeTarget, Quantity};
 pub use profile::{At, Profile};
 pub use validate::{Issue, name_problem};

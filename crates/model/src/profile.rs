@@ -1,5 +1,6 @@
 //! Quantities that may vary along a beam.
 
+use crate::Notch;
 use flexura_expression::Function;
 
 /// A place along a beam.
@@ -35,6 +36,8 @@ pub enum Profile {
     },
     /// A smooth function of the undeformed arc length s (m).
     Function(Function),
+    /// The height of a notched flexure hinge.
+    Notch(Notch),
 }
 
 impl Profile {
@@ -43,6 +46,7 @@ impl Profile {
         match self {
             Profile::Constant(value) => *value,
             Profile::Function(function) => function.value(s),
+            Profile::Notch(notch) => notch.height(s, length),
             Profile::Table { at, value } => {
                 let upper = at.partition_point(|row| row.arc_length(length) <= s);
                 if upper == 0 {
@@ -63,18 +67,24 @@ impl Profile {
         match self {
             Profile::Constant(value) => Some(*value),
             Profile::Function(function) => function.as_constant(),
+            Profile::Notch(_) => None,
             Profile::Table { value, .. } => value.iter().all(|v| *v == value[0]).then(|| value[0]),
         }
     }
 
-    /// Arc lengths strictly inside the beam where the profile has a kink.
+    /// Arc lengths strictly inside the beam, in increasing order, between which the profile is smooth.
     pub fn breaks(&self, length: f64) -> Vec<f64> {
-        match self {
-            Profile::Table { at, .. } => {
-                at.iter().map(|row| row.arc_length(length)).filter(|s| *s > 0.0 && *s < length).collect()
-            }
-            _ => Vec::new(),
-        }
+        let mut breaks: Vec<f64> = match self {
+            Profile::Table { at, .. } => at.iter().map(|row| row.arc_length(length)).collect(),
+            Profile::Notch(notch) => notch.breaks(length),
+            Profile::Constant(_) | Profile::Function(_) => Vec::new(),
+        };
+        // What comes out at an end but for round-off is no break.
+        let margin = 1e-12 * length;
+        breaks.retain(|s| *s > margin && *s < length - margin);
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup_by(|a, b| (*a - *b).abs() < margin);
+        breaks
     }
 }
 

@@ -1,9 +1,12 @@
 //! What every reader shares: the text, the parameters, the names, and the problems found so far.
 
 use crate::format::Named;
+use crate::repeat::{Copies, Expanded};
 use crate::report::{MOST, Problem, Report, Source};
 use crate::tree::{Node, Value};
-use flexura_expression::{Binding, Expression, ExpressionError, Kind, Lowered, Quantity, Reference, nearest};
+use flexura_expression::{
+    Binding, Expression, ExpressionError, Kind, Lowered, Quantity, Reference, function_table, nearest,
+};
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -39,31 +42,62 @@ pub(crate) struct Context<'a> {
     problems: RefCell<Vec<Problem>>,
     count: Cell<usize>,
     used: RefCell<BTreeSet<(&'static str, String)>>,
+    copies: Option<&'a Copies>,
+    /// How often the same place was wrong in the copies of a table, by its byte range.
+    alike: RefCell<BTreeMap<(usize, usize), usize>>,
 }
 
 impl<'a> Context<'a> {
     pub(crate) fn new(source: &'a Arc<Source>, folder: &'a Path, root: &'a Node) -> Self {
-        let mut names = BTreeMap::new();
-        for named in [Named::Material, Named::Section, Named::Beam, Named::Body, Named::Joint, Named::Spring]
-        {
-            let entries = root.get(named.word()).map_or(&[][..], |entry| entry.node.entries());
-            let positions = entries.iter().enumerate().map(|(i, entry)| (entry.key.as_str(), i)).collect();
-            names.insert(named, positions);
-        }
         Self {
             source,
             folder,
             root,
             parameters: Parameters::new(),
-            names,
+            names: names(root),
             problems: RefCell::new(Vec::new()),
             count: Cell::new(0),
             used: RefCell::new(BTreeSet::new()),
+            copies: None,
+            alike: RefCell::new(BTreeMap::new()),
         }
+    }
+
+    /// The same context over a tree in which repeated tables are written out.
+    pub(crate) fn over<'b>(self, expanded: &'b Expanded) -> Context<'b>
+    where
+        'a: 'b,
+    {
+        Context {
+            root: &expanded.root,
+            names: names(&expanded.root),
+            copies: Some(&expanded.copies),
+            source: self.source,
+            folder: self.folder,
+            parameters: self.parameters,
+            problems: self.problems,
+            count: self.count,
+            used: self.used,
+            alike: self.alike,
+        }
+    }
+
+    /// Does the path lead into a copy of a repeated table?
+    pub(crate) fn is_copy(&self, path: &str) -> bool {
+        self.copies.is_some_and(|copies| copies.is_copy(path))
     }
 
     /// Records a problem; beyond the most that are kept, it is only counted.
     pub(crate) fn record(&self, problem: Problem) -> Reported {
+        if self.is_copy(&problem.path) {
+            // A mistake of the template is told once, however many copies have it.
+            let mut alike = self.alike.borrow_mut();
+            let count = alike.entry((problem.span.start, problem.span.end)).or_insert(0);
+            *count += 1;
+            if *count > 1 {
+                return Reported;
+            }
+        }
         let full = self.is_full();
         self.count.set(self.count.get() + 1);
         // The list is sorted by place only later, hence some slack.
@@ -79,11 +113,22 @@ impl<'a> Context<'a> {
     }
 
     pub(crate) fn problem(&self, span: &Range<usize>, path: &str, message: impl Into<String>) -> Problem {
+        let copy = self.copies.and_then(|copies| copies.values(path));
+        let known = || self.alike.borrow().contains_key(&(span.start, span.end));
+        // Finding line and column takes a walk through the text; not where no one will see them.
+        if copy.is_some() && known() {
+            let mut problem = Problem::of_file(&self.source.name, message);
+            (problem.path, problem.span) = (path.to_string(), span.clone());
+            return problem;
+        }
         if self.is_full() {
-            // Finding line and column takes a walk through the text, and no one will see them.
             return Problem::of_file(&self.source.name, message);
         }
-        Problem::at(self.source, span.clone(), path, message)
+        let mut problem = Problem::at(self.source, span.clone(), path, message);
+        if let Some(values) = copy {
+            problem.message.push_str(&format!(" (for {values})"));
+        }
+        problem
     }
 
     /// Records a problem of the model file.
@@ -108,7 +153,17 @@ impl<'a> Context<'a> {
     /// What was found, in the order of the file.
     pub(crate) fn into_report(self) -> Report {
         let count = self.count.get();
+        let alike = self.alike.into_inner();
         let mut problems = self.problems.into_inner();
+        for problem in &mut problems {
+            let count = alike.get(&(problem.span.start, problem.span.end)).copied().unwrap_or(1);
+            if count > 1 && problem.message.ends_with(')') {
+                problem.message.pop();
+                let copies = if count == 2 { "another copy" } else { "more copies" };
+                let how_many = if count == 2 { String::new() } else { format!("{} ", count - 1) };
+                problem.message.push_str(&format!("; and so in {how_many}{copies})"));
+            }
+        }
         let kept = problems.len();
         problems.sort_by_key(|problem| {
             (problem.source.as_ref().is_none_or(|source| source.name != self.source.name), problem.span.start)
@@ -167,7 +222,9 @@ impl<'a> Context<'a> {
                 format!("`{shown}` cannot be used here"),
                 reference.span.clone(),
             )
-            .with_hint("results such as `body.slider.position.x` can only be used in [output]"));
+            .with_hint(
+                "results such as `body.slider.position.x` can only be used in [output] and [target]",
+            ));
         };
         self.mark_used("parameter", name);
         match self.parameters.get(name) {
@@ -234,31 +291,39 @@ impl<'a> Context<'a> {
         })
     }
 
-    /// [`Context::lower`], trying each kind of the variable in turn; only the last failure is reported.
+    /// [`Context::lower`], trying the variable as a plain number in SI units, then with its dimension; only the
+    /// last failure is reported.
     pub(crate) fn lower_either(
         &self,
         node: &Node,
         path: &str,
         text: &str,
         variable: &str,
-        kinds: [Kind; 2],
+        kind: Kind,
     ) -> Read<Lowered> {
         if let Ok(expression) = Expression::parse_with_variable(text, variable) {
             let silent = Cell::new(false);
-            let lowered = expression.lower(&mut |reference| match reference.name() {
-                Some(name) if name == variable => Ok(Binding::Variable(kinds[0])),
-                _ => self.parameter(reference, text, &silent).map(Binding::Value),
-            });
-            if let Ok(lowered) = lowered
-                && (lowered.kind == Kind::Plain || lowered.constant().is_some())
-            {
-                return Ok(lowered);
-            }
+            let lower = |kind: Kind| {
+                expression.lower(&mut |reference| match reference.name() {
+                    Some(name) if name == variable => Ok(Binding::Variable(kind)),
+                    _ => self.parameter(reference, text, &silent).map(Binding::Value),
+                })
+            };
+            let plain = lower(Kind::Plain);
             if silent.get() {
                 return Err(Reported);
             }
+            if let Ok(plain) = plain {
+                // `cos(30*s)` can only be meant for a plain number, whatever stands before it.
+                let accepted = plain.kind == Kind::Plain
+                    || plain.constant().is_some()
+                    || lower(kind).is_err_and(|error| is_call(&text[error.span.clone()]));
+                if accepted {
+                    return Ok(plain);
+                }
+            }
         }
-        self.lower(node, path, text, Some((variable, kinds[1])))
+        self.lower(node, path, text, Some((variable, kind)))
     }
 
     /// A constant: a number, or an expression of parameters.
@@ -283,6 +348,32 @@ impl<'a> Context<'a> {
         }
         Ok(Some(quantity))
     }
+}
+
+/// The position of every named thing in its list, by kind.
+fn names(root: &Node) -> BTreeMap<Named, BTreeMap<&str, usize>> {
+    let mut names = BTreeMap::new();
+    let kinds = [
+        Named::Material,
+        Named::Section,
+        Named::Beam,
+        Named::Body,
+        Named::Joint,
+        Named::Spring,
+        Named::Cable,
+    ];
+    for named in kinds {
+        let entries = root.get(named.word()).map_or(&[][..], |entry| entry.node.entries());
+        let positions = entries.iter().enumerate().map(|(i, entry)| (entry.key.as_str(), i)).collect();
+        names.insert(named, positions);
+    }
+    names
+}
+
+/// Does the text begin with the call of a function?
+fn is_call(text: &str) -> bool {
+    function_table()
+        .any(|(name, _)| text.strip_prefix(name).is_some_and(|rest| rest.trim_start().starts_with('(')))
 }
 
 /// "did you mean ...", or what there is.

@@ -37,6 +37,7 @@ mod json;
 mod parameters;
 mod reader;
 mod reference;
+mod repeat;
 mod report;
 mod schema;
 mod tree;
@@ -45,7 +46,7 @@ pub use reference::reference_markdown;
 pub use report::{Problem, Report, ReportKind, Severity};
 pub use schema::schema;
 
-use context::{Context, suggest};
+use context::{Context, Reported, suggest};
 use flexura_model::Model;
 use report::Source;
 use std::path::{Path, PathBuf};
@@ -127,27 +128,45 @@ impl Document {
 
     /// The model, with some parameters overridden: each is a name and a text such as "3", "3 N" or "2*other".
     pub fn model(&self, overrides: &[(String, String)]) -> Result<Model, Report> {
-        let mut context = Context::new(&self.source, &self.folder, &self.root);
-        let model = build::model(&mut context, overrides);
-        match model {
+        self.build(overrides, |model, context| match model {
             Some(model) => Ok(model),
             None => Err(context.into_report()),
-        }
+        })
     }
 
     /// What looks unintended although the model can be made: things that nothing uses.
     pub fn warnings(&self) -> Vec<Problem> {
-        let mut context = Context::new(&self.source, &self.folder, &self.root);
-        match build::model(&mut context, &[]) {
+        self.build(&[], |model, context| match model {
             Some(_) => build::unused(&context),
             None => Vec::new(),
+        })
+    }
+
+    /// Builds the model and hands it on with what was found on the way.
+    fn build<T>(
+        &self,
+        overrides: &[(String, String)],
+        then: impl FnOnce(Option<Model>, Context<'_>) -> T,
+    ) -> T {
+        let mut context = Context::new(&self.source, &self.folder, &self.root);
+        build::parameters(&mut context, overrides);
+        match repeat::expand(&context) {
+            Err(Reported) => then(None, context),
+            Ok(None) => {
+                let model = build::model(&context);
+                then(model, context)
+            }
+            Ok(Some(expanded)) => {
+                let context = context.over(&expanded);
+                let model = build::model(&context);
+                then(model, context)
+            }
         }
     }
 
     /// The names of the parameters, in the order of the file.
     pub fn parameter_names(&self) -> Vec<&str> {
-        let entries = self.root.get("parameter").map_or(&[][..], |entry| entry.node.entries());
-        entries.iter().map(|entry| entry.key.as_str()).collect()
+        parameters::declared(&self.root).iter().map(|declared| declared.name).collect()
     }
 
     /// Where a key stands in the file, for messages about a finished model: the byte range of the deepest

@@ -5,7 +5,7 @@ use crate::report::{Problem, Source};
 use crate::tree::{Entry, Node, Value};
 use flexura_expression::{Expression, ExpressionError, Kind, Quantity, reserved};
 use std::cell::Cell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -17,15 +17,55 @@ enum Text<'a> {
 
 struct Definition<'a> {
     name: &'a str,
+    /// The key of its value.
+    path: String,
     text: Text<'a>,
+    /// Does its text stand instead of the one that declares it?
+    replaced: bool,
     expression: Option<Expression>,
     /// Positions of the parameters it refers to, with where.
     needs: Vec<(usize, Range<usize>)>,
 }
 
-/// Evaluates all parameters, first as declared, then with the overrides. What is wrong is recorded.
-pub(crate) fn evaluate(context: &mut Context<'_>, entries: &[Entry], overrides: &[(String, String)]) {
-    for entry in entries {
+/// Where a parameter is declared: in [parameter], or in [unknown] by its guess.
+pub(crate) struct Declared<'a> {
+    pub name: &'a str,
+    entry: &'a Entry,
+    node: &'a Node,
+    path: String,
+}
+
+/// All parameters, in the order of the file.
+pub(crate) fn declared(root: &Node) -> Vec<Declared<'_>> {
+    let entries = |word: &str| root.get(word).map_or(&[][..], |entry| entry.node.entries());
+    let mut all: Vec<Declared<'_>> = entries("parameter")
+        .iter()
+        .map(|entry| {
+            let path = format!("parameter.{}", entry.key);
+            Declared { name: &entry.key, entry, node: &entry.node, path }
+        })
+        .collect();
+    let known: BTreeSet<&str> = all.iter().map(|declared| declared.name).collect();
+    let more: Vec<Declared<'_>> =
+        guesses(root).into_iter().filter(|guess| !known.contains(guess.name)).collect();
+    all.extend(more);
+    all
+}
+
+fn guesses<'a>(root: &'a Node) -> Vec<Declared<'a>> {
+    let entries = root.get("unknown").map_or(&[][..], |entry| entry.node.entries());
+    let guess = |entry: &'a Entry| {
+        let path = format!("unknown.{}.guess", entry.key);
+        Some(Declared { name: &entry.key, entry, node: &entry.node.get("guess")?.node, path })
+    };
+    entries.iter().filter_map(guess).collect()
+}
+
+/// Evaluates all parameters, first as declared, then with guesses and overrides. What is wrong is recorded.
+pub(crate) fn evaluate(context: &mut Context<'_>, overrides: &[(String, String)]) {
+    let root = context.root;
+    let entries = &declared(root)[..];
+    for Declared { entry, .. } in entries {
         let path = format!("parameter.{}", entry.key);
         let starts = entry.key.chars().next().is_some_and(|c| c.is_alphabetic() || c == '_');
         if !starts || !entry.key.chars().all(|c| c.is_alphanumeric() || c == '_') {
@@ -41,8 +81,19 @@ pub(crate) fn evaluate(context: &mut Context<'_>, entries: &[Entry], overrides: 
             context.wrong(&entry.key_span, &path, message);
         }
     }
-    let declared = solve(context, entries, &BTreeMap::new(), None);
-    if overrides.is_empty() || context.any_problem() {
+    let declared = solve(context, entries, &BTreeMap::new(), &BTreeMap::new(), None);
+    let in_table: BTreeSet<&str> = root
+        .get("parameter")
+        .map_or(&[][..], |entry| entry.node.entries())
+        .iter()
+        .map(|entry| entry.key.as_str())
+        .collect();
+    let guesses: BTreeMap<&str, Declared<'_>> = guesses(root)
+        .into_iter()
+        .filter(|guess| in_table.contains(guess.name))
+        .map(|guess| (guess.name, guess))
+        .collect();
+    if (overrides.is_empty() && guesses.is_empty()) || context.any_problem() {
         context.parameters = declared;
         for (name, _) in overrides {
             context.mark_used("parameter", name);
@@ -62,25 +113,31 @@ pub(crate) fn evaluate(context: &mut Context<'_>, entries: &[Entry], overrides: 
         context.mark_used("parameter", name);
         replaced.insert(name, source);
     }
-    context.parameters = solve(context, entries, &replaced, Some(&declared));
+    context.parameters = solve(context, entries, &guesses, &replaced, Some(&declared));
 }
 
 fn solve(
     context: &Context<'_>,
-    entries: &[Entry],
+    entries: &[Declared<'_>],
+    guesses: &BTreeMap<&str, Declared<'_>>,
     replaced: &BTreeMap<&str, Arc<Source>>,
     declared: Option<&Parameters>,
 ) -> Parameters {
     let positions: BTreeMap<&str, usize> =
-        entries.iter().enumerate().map(|(i, entry)| (entry.key.as_str(), i)).collect();
+        entries.iter().enumerate().map(|(i, entry)| (entry.name, i)).collect();
     let mut definitions: Vec<Definition<'_>> = entries
         .iter()
         .map(|entry| {
-            let text = match replaced.get(entry.key.as_str()) {
-                Some(source) => Text::Override { source: source.clone(), offset: entry.key.len() + 1 },
-                None => Text::File(&entry.node),
+            let (text, path, replaced) = match (replaced.get(entry.name), guesses.get(entry.name)) {
+                (Some(source), _) => {
+                    let text = Text::Override { source: source.clone(), offset: entry.name.len() + 1 };
+                    (text, &entry.path, true)
+                }
+                (None, Some(guess)) => (Text::File(guess.node), &guess.path, true),
+                (None, None) => (Text::File(entry.node), &entry.path, false),
             };
-            Definition { name: &entry.key, text, expression: None, needs: Vec::new() }
+            let path = path.clone();
+            Definition { name: entry.name, path, text, replaced, expression: None, needs: Vec::new() }
         })
         .collect();
     let mut values: Parameters = Parameters::new();
@@ -90,13 +147,13 @@ fn solve(
                 Value::Text(text) => text.as_str(),
                 Value::Number(_) => continue,
                 _ => {
-                    let path = format!("parameter.{}", definition.name);
+                    let path = &definition.path;
                     let message = format!("expected a number or an expression, found {}", node.kind());
                     context.wrong_with_hint(
                         &node.span,
-                        &path,
+                        path,
                         message,
-                        format!("for example `{} = \"3 N\"`", definition.name),
+                        format!("for example `{} = \"3 N\"`", path.rsplit('.').next().unwrap_or_default()),
                     );
                     values.insert(definition.name.to_string(), None);
                     continue;
@@ -188,16 +245,16 @@ fn order(context: &Context<'_>, definitions: &[Definition<'_>], values: &mut Par
 }
 
 fn complain(context: &Context<'_>, definition: &Definition<'_>, error: &ExpressionError) {
-    let path = format!("parameter.{}", definition.name);
+    let path = &definition.path;
     match &definition.text {
         Text::File(node) => {
-            context.expression_error(node, &path, error);
+            context.expression_error(node, path, error);
         }
         Text::Override { source, offset } => {
             let mut problem = Problem::at(
                 source,
                 offset + error.span.start..offset + error.span.end,
-                &path,
+                path,
                 error.message.clone(),
             );
             problem.hint = error.hint.clone();
@@ -211,11 +268,16 @@ fn value(
     definition: &Definition<'_>,
     values: &Parameters,
     declared: Option<&Parameters>,
-    names: &[Entry],
+    names: &[Declared<'_>],
 ) -> Option<Quantity> {
+    let before = declared.and_then(|declared| declared.get(definition.name)).copied().flatten();
     let Some(expression) = &definition.expression else {
         let Text::File(node) = &definition.text else { return None };
-        return context.quantity(node, &format!("parameter.{}", definition.name), false).ok().flatten();
+        let mut quantity = context.quantity(node, &definition.path, false).ok().flatten()?;
+        if let (true, Some(Quantity { kind, .. })) = (definition.replaced, before) {
+            quantity.kind = kind;
+        }
+        return Some(quantity);
     };
     let silent = Cell::new(false);
     let text = expression.text();
@@ -236,7 +298,7 @@ fn value(
                     return Err(ExpressionError::new(String::new(), reference.span.clone()));
                 }
                 let name = &text[reference.span.clone()];
-                let names: Vec<&str> = names.iter().map(|entry| entry.key.as_str()).collect();
+                let names: Vec<&str> = names.iter().map(|entry| entry.name).collect();
                 Err(ExpressionError::new(format!("there is no parameter `{name}`"), reference.span.clone())
                     .with_hint(suggest(name, &names, "parameter")))
             }
@@ -257,10 +319,8 @@ fn value(
         let span = lowered.not_finite.unwrap_or(whole);
         return fail(&ExpressionError::new("the expression gives no finite number", span));
     }
-    // An override keeps the dimension that the file declares.
-    let before = declared.and_then(|declared| declared.get(definition.name)).copied().flatten();
-    if let (Text::Override { .. }, Some(Quantity { kind: Kind::Of(wanted), .. })) = (&definition.text, before)
-    {
+    // An override or a guess keeps the dimension that the file declares.
+    if let (true, Some(Quantity { kind: Kind::Of(wanted), .. })) = (definition.replaced, before) {
         if !quantity.kind.fits(&wanted) {
             let message = format!("expected {wanted}, found {}", quantity.kind.dimension());
             let hint = format!("the file declares `{}` as {wanted}", definition.name);

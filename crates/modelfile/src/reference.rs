@@ -11,7 +11,8 @@ pub fn reference_markdown() -> String {
          (`\"20.32 mm\"`), or an expression of parameters (`\"2*push + 1 N\"`). A unit stands directly behind\n\
          a number. Dimensions are checked: a plain number may stand for any dimension, two numbers with\n\
          units must agree. Where a quantity may vary along a beam, it may be an expression of the arc length\n\
-         `s` (metres); if that mentions no unit at all, it is in SI units.\n\n",
+         `s` (metres); if that mentions no unit at all, it is in SI units, and so is\n\
+         `s` within a function that takes a plain number (`\"5 mm*cos(30*s)\"`).\n\n",
     );
     let mut done: Vec<&'static Table> = Vec::new();
     section(&mut page, "The file", &FILE);
@@ -27,6 +28,7 @@ pub fn reference_markdown() -> String {
         inner.reverse();
         open.extend(inner);
     }
+    page.push_str(REPEATING);
     page.push_str(RESULTS);
     words(&mut page);
     page
@@ -34,10 +36,10 @@ pub fn reference_markdown() -> String {
 
 fn below(title: &str, table: &'static Table) -> Vec<(String, &'static Table)> {
     let path = |name: &str| if title.is_empty() { name.to_string() } else { format!("{title}.{name}") };
-    let inner = |key: &'static Key| match key.shape {
-        Shape::NamedTables(table) => Some((path(&format!("{}.NAME", key.name)), table)),
-        Shape::Table(table) | Shape::Tables(table) | Shape::Placed(table) => Some((path(key.name), table)),
-        _ => None,
+    let inner = |key: &'static Key| {
+        let named = matches!(key.shape, Shape::NamedTables(_) | Shape::Unknowns(_));
+        let title = if named { format!("{}.NAME", key.name) } else { key.name.to_string() };
+        Some((path(&title), key.shape.table()?))
     };
     table.all_keys().filter_map(inner).collect()
 }
@@ -84,14 +86,33 @@ fn rows(page: &mut String, keys: &[Key]) {
     page.push('\n');
 }
 
-const RESULTS: &str = "## Results in `[output]`\n\n\
+const REPEATING: &str = "## Repeating\n\n\
+    Every named table may have `repeat`, which names indices and makes a table for every combination of them: `{ i = 10 }` runs \
+    from 0 to 9, `{ i = [1, 10] }` from 1 to 10, and the numbers may be expressions of parameters. In the table's name and in \
+    every text inside, an expression in braces is replaced by its value, a whole number.\n\n\
+    ```toml\n\
+    [body.\"n_{i}_{j}\"]\n\
+    repeat = { i = \"cells + 1\", j = 3 }\n\
+    at = [\"{i}*10 mm\", \"{j}*10 mm\", 0]\n\n\
+    [beam.\"h_{i}_{j}\"]\n\
+    repeat = { i = \"cells\", j = 3 }\n\
+    material = \"steel\"\n\
+    section = \"strip\"\n\
+    length = \"10 mm\"\n\
+    start = { body = \"n_{i}_{j}\", hold = \"clamp\" }\n\
+    end = { body = \"n_{i+1}_{j}\", hold = \"clamp\" }\n\
+    ```\n\n";
+
+const RESULTS: &str = "## Results in `[output]` and `[target]`\n\n\
     | what | quantities |\n|---|---|\n\
     | `beam.NAME[0.5]`, `beam.NAME[30 mm]`, `beam.NAME.start`, `beam.NAME.end` | `position`, `rotation`, `tangent`, `force`, `moment` (each `.x`, `.y`, `.z`), `curvature` (`.k1`, `.k2`, `.k3`), `stretch`, `strain`, `stress` |\n\
-    | `body.NAME` | `position`, `rotation` (each `.x`, `.y`, `.z`) |\n\
-    | `joint.NAME` | `coordinate`, `effort` (of a spherical joint each `.x`, `.y`, `.z`), `force`, `moment` (each `.x`, `.y`, `.z`) |\n\
-    | `spring.NAME` | `length`, `tension` |\n\
-    | `model` | `energy` |\n\n\
-    A vector without a component gives three numbers. A name that is no plain word is quoted: `beam.\"left-arm\".end.position`.\n\n";
+    | `body.NAME` | `position`, `rotation` (each `.x`, `.y`, `.z`); `screw.axis`, `screw.point` (each `.x`, `.y`, `.z`), `screw.pitch`, `screw.angle`: the finite screw from the undeformed pose; `motion.axis`, `motion.point` (each `.x`, `.y`, `.z`), `motion.pitch`: the instantaneous screw |\n\
+    | both | `displacement`, `turning` since the undeformed mechanism (each `.x`, `.y`, `.z`), `compliance.ROW.COLUMN` (rows `x` `y` `z` `rx` `ry` `rz`, columns `fx` `fy` `fz` `mx` `my` `mz`), `stiffness.ROW.COLUMN` (rows `fx` ..., columns `x` ...), `center_of_compliance` (`.x`, `.y`, `.z`) |\n\
+    | `joint.NAME` | `coordinate` and `effort` of a joint with one coordinate, each `.x`, `.y`, `.z` of a spherical one; otherwise the coordinate by its name, `angle`, `position`, `x`, `first` ..., and `effort.NAME`; `force`, `moment` (each `.x`, `.y`, `.z`) |\n\
+    | `spring.NAME`, `cable.NAME` | `length`, `tension` |\n\
+    | `model` | `energy` |\n\
+    | `output.NAME` | in `[target]` only: that output; of a vector `.x`, `.y`, `.z` |\n\n\
+    A vector without a component gives three numbers. A name that is no plain word is quoted: `beam.\"left-arm\".end.position`. The coordinates of a free joint are `x`, `y`, `z` and the rotation vector `rx`, `ry`, `rz`.\n\n";
 
 fn words(page: &mut String) {
     page.push_str("## Units\n\n| unit | prefixes | in SI |\n|---|---|---|\n");

@@ -1,6 +1,6 @@
 //! The JSON Schema (draft 2020-12) of a model file, for editors; made from the format's descriptor.
 
-use crate::format::{FILE, Key, Need, Shape, Table};
+use crate::format::{FILE, Key, Need, REPEAT, Shape, Table};
 use crate::json::{array, indent, object, text};
 
 /// The JSON Schema of the model file.
@@ -11,7 +11,7 @@ pub fn schema() -> String {
         ("$schema", text("https://json-schema.org/draft/2020-12/schema")),
         ("title", text("flexura model file")),
     ];
-    members.extend(table_members(&FILE));
+    members.extend(table_members(&FILE, None));
     members.push((
         "$defs",
         object(&[("number", number()), ("extended", extended()), ("vector", list_of("number", 3))]),
@@ -60,13 +60,14 @@ fn type_of(name: &str) -> String {
 }
 
 fn table(table: &Table) -> String {
-    object(&table_members(table))
+    object(&table_members(table, None))
 }
 
-fn table_members(table: &Table) -> Vec<(&'static str, String)> {
+/// The schema of a table that may have one more key.
+fn table_members(table: &Table, more: Option<&Key>) -> Vec<(&'static str, String)> {
     let mut members = vec![("description", text(table.doc)), ("type", text("object"))];
     match &table.variants {
-        None => members.extend(key_members(table.keys.iter(), None)),
+        None => members.extend(key_members(table.keys.iter().chain(more), None)),
         Some(variants) => {
             let each = variants.list.iter().map(|variant| {
                 let word = object(&[
@@ -76,7 +77,7 @@ fn table_members(table: &Table) -> Vec<(&'static str, String)> {
                 let required = variants.default != Some(variant.name);
                 let mut members = vec![("title", text(variant.name)), ("type", text("object"))];
                 members.extend(key_members(
-                    table.keys.iter().chain(variant.keys),
+                    table.keys.iter().chain(variant.keys).chain(more),
                     Some((variants.by, word, required)),
                 ));
                 object(&members)
@@ -137,22 +138,28 @@ fn named(schema: String) -> String {
 
 fn value(shape: &Shape) -> String {
     match shape {
-        Shape::Number(_) | Shape::Profile(_) | Shape::Function(_) | Shape::Station => refer("number"),
+        Shape::Number(_) | Shape::Profile(_) | Shape::Function(_) | Shape::Station | Shape::AnyNumber => {
+            refer("number")
+        }
+        Shape::Notched(_) => any_of(std::iter::once(refer("number")).chain(shape.table().map(table))),
         Shape::Stiffness(_) => refer("extended"),
         Shape::Vector(_) | Shape::Profiles(_) => refer("vector"),
-        Shape::Range(_) => list_of("number", 2),
+        Shape::Range(_) | Shape::AnyRange => list_of("number", 2),
         Shape::Quaternion => list_of("number", 4),
         Shape::Matrix6 => list(list_of("number", 6), Some(6), 6),
         Shape::Inertia => any_of([refer("vector"), list(refer("vector"), Some(3), 3)]),
         Shape::PointOrStation => any_of([refer("number"), refer("vector")]),
-        Shape::Text | Shape::Name(_) => type_of("string"),
+        Shape::Offset => list(refer("number"), Some(3), 2),
+        Shape::Text | Shape::Name(_) | Shape::Equation => type_of("string"),
         Shape::Flag => type_of("boolean"),
         Shape::Choice(words) => object(&[("enum", array(words.iter().map(|(word, _)| text(word))))]),
         Shape::Placed(place) => any_of([type_of("string"), table(place)]),
         Shape::Table(inner) => table(inner),
         Shape::Tables(inner) => any_of([table(inner), list(table(inner), None, 0)]),
-        Shape::NamedTables(inner) => named(table(inner)),
-        Shape::NamedNumbers => named(refer("number")),
+        Shape::NamedTables(inner) => named(object(&table_members(inner, Some(&REPEAT)))),
+        Shape::Unknowns(inner) => named(table(inner)),
+        Shape::Repeat => named(any_of([refer("number"), list_of("number", 2)])),
+        Shape::NamedNumbers | Shape::NamedTargets => named(refer("number")),
         Shape::NamedOutputs => named(type_of("string")),
         Shape::Points => list(refer("vector"), None, 2),
         Shape::Along => list(

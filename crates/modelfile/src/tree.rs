@@ -1,5 +1,6 @@
 //! The TOML text as a tree of our own, every key and value with its byte range.
 
+use crate::repeat::stands_for;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
@@ -52,7 +53,8 @@ impl Node {
         self.entries().iter().find(|entry| entry.key == key)
     }
 
-    /// The byte range of the deepest thing on the way to `path` (`section.strip.along[2].width`).
+    /// The byte range of the deepest thing on the way to `path` (`section.strip.along[2].width`). A copy of a
+    /// repeated table is looked for where its template stands.
     pub(crate) fn locate(&self, path: &str) -> Option<Range<usize>> {
         let mut node = self;
         let mut rest = path;
@@ -71,7 +73,9 @@ impl Node {
                 continue;
             }
             let end = rest.find(['.', '[']).unwrap_or(rest.len());
-            let Some(entry) = node.get(&rest[..end]) else { break };
+            let name = &rest[..end];
+            let template = || node.entries().iter().find(|entry| stands_for(&entry.key, name));
+            let Some(entry) = node.get(name).or_else(template) else { break };
             rest = rest[end..].trim_start_matches('.');
             node = &entry.node;
             // A table is best shown by its key; a value by itself.

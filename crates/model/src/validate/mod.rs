@@ -1,14 +1,15 @@
 //! Is the description sound? Everything that can be said without solving.
 
-use crate::{
-    At, Beam, BeamId, BeamPoint, Curve, Drive, JointKind, JointLaw, LoadTarget, Model, Mount, SectionFrame,
-    Shape, SpringLaw,
-};
-use flexura_spatial::{Pose, Vector3};
+use crate::Model;
+use flexura_spatial::{Matrix3, Pose, Vector3};
 
+mod beam;
+mod joint;
+mod load;
+mod result;
 mod section;
 
-use section::{check_section_alone, check_section_along, check_table, worst};
+use section::check_section_alone;
 
 /// Something in a model that makes no sense.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,21 +133,15 @@ impl Model {
         for beam in &self.beams {
             self.check_beam(beam, &mut issues);
         }
+        self.check_circles(&mut issues);
         for joint in &self.joints {
-            let path = format!("joint.{}", joint.name);
-            self.check_mount(joint.parent.mount, &format!("{path}.parent"), &mut issues);
-            self.check_mount(joint.child, &format!("{path}.child"), &mut issues);
-            issues.pose(&format!("{path}.parent"), &joint.parent.pose);
-            if let Some(pose) = &joint.child_pose {
-                issues.pose(&format!("{path}.child"), pose);
-            }
-            if joint.parent.mount == joint.child {
-                issues.add(format!("{path}.child"), "a joint must connect two different bodies");
-            }
-            check_law(&joint.law, &path, &mut issues);
+            self.check_joint(joint, &mut issues);
         }
+        self.check_couplings(&mut issues);
         self.check_loads(&mut issues);
+        self.check_cables(&mut issues);
         self.check_outputs(&mut issues);
+        self.check_inverse(&mut issues);
         issues.0
     }
 
@@ -157,7 +152,9 @@ impl Model {
         issues.names("beam", self.beams.iter().map(|b| b.name.as_str()));
         issues.names("body", self.bodies.iter().map(|b| b.name.as_str()));
         issues.names("joint", self.joints.iter().map(|j| j.name.as_str()));
+        issues.names("coupling", self.couplings.iter().map(|c| c.name.as_str()));
         issues.names("spring", self.springs.iter().map(|s| s.name.as_str()));
+        issues.names("cable", self.cables.iter().map(|c| c.name.as_str()));
         issues.names("mass", self.masses.iter().map(|m| m.name.as_str()));
         issues.names("load", self.loads.iter().map(|l| l.name.as_str()));
         issues.names("output", self.outputs.iter().map(|o| o.name.as_str()));
@@ -190,278 +187,9 @@ impl Model {
             }
         }
     }
-
-    fn check_beam(&self, beam: &Beam, issues: &mut Issues) {
-        let path = format!("beam.{}", beam.name);
-        let length = check_curve(&beam.curve, &path, issues);
-        check_frame(&beam.frame, &format!("{path}.frame"), issues);
-        let material = beam.material.and_then(|id| self.materials.get(id.0));
-        if beam.material.is_some() && material.is_none() {
-            issues.add(format!("{path}.material"), "refers to a material that does not exist");
-        }
-        match self.sections.get(beam.section.0) {
-            None => issues.add(format!("{path}.section"), "refers to a section that does not exist"),
-            Some(section) => {
-                let direct = matches!(section.shape, Shape::Stiffness { .. } | Shape::StiffnessMatrix { .. });
-                if !direct && beam.material.is_none() {
-                    issues.add_with_hint(
-                        path.clone(),
-                        format!("beam `{}` has no material", beam.name),
-                        "only a beam whose section is given as a stiffness needs none",
-                    );
-                }
-                if let Shape::Stiffness { ga2, ga3, .. } = &section.shape
-                    && beam.theory.shear
-                    && (ga2.is_none() || ga3.is_none())
-                {
-                    issues.add_with_hint(
-                        format!("{path}.shear"),
-                        format!(
-                            "the beam shears, but its section `{}` gives no shear stiffness",
-                            section.name
-                        ),
-                        "give the section GA2 and GA3",
-                    );
-                }
-                if let Some(length) = length {
-                    check_section_along(&section.shape, &section.name, length, &path, issues);
-                }
-            }
-        }
-        for (end, word) in [(&beam.start, "start"), (&beam.end, "end")] {
-            let Some(end) = end else { continue };
-            let path = format!("{path}.{word}");
-            self.check_mount(end.mount, &path, issues);
-            if let Some(pose) = &end.placement {
-                issues.pose(&path, pose);
-            }
-            check_law(&end.hold, &path, issues);
-        }
-        for (i, distributed) in beam.distributed.iter().enumerate() {
-            for (profiles, word) in [(&distributed.force, "force"), (&distributed.moment, "moment")] {
-                for (k, profile) in profiles.iter().enumerate() {
-                    let path = format!("{path}.distributed[{i}].{word}[{k}]");
-                    check_table(profile, &path, issues);
-                    if let Some((s, value)) = worst(profile, length, |value| value.is_finite()) {
-                        issues.add(path, format!("must be finite along the beam, is {value} at s = {s} m"));
-                    }
-                }
-            }
-        }
-    }
-
-    fn check_mount(&self, mount: Mount, path: &str, issues: &mut Issues) {
-        match mount {
-            Mount::Ground => {}
-            Mount::Body(id) => {
-                if id.0 >= self.bodies.len() {
-                    issues.add(format!("{path}.body"), "refers to a body that does not exist");
-                }
-            }
-            Mount::Beam(point) => self.check_at(&point, &format!("{path}.at"), issues),
-        }
-    }
-
-    fn check_at(&self, point: &BeamPoint, path: &str, issues: &mut Issues) {
-        self.check_station(point.beam, point.at, path, issues);
-    }
-
-    fn check_station(&self, beam: BeamId, at: At, path: &str, issues: &mut Issues) {
-        let Some(beam) = self.beams.get(beam.0) else {
-            issues.add(path, "refers to a beam that does not exist");
-            return;
-        };
-        match at {
-            At::Fraction(fraction) if !(0.0..=1.0).contains(&fraction) => issues.add_with_hint(
-                path,
-                format!("the place {fraction} is not on beam `{}`", beam.name),
-                "a plain number is a fraction of the length, from 0 to 1; a length needs a unit",
-            ),
-            At::Length(s) => {
-                let length = known_length(&beam.curve);
-                // A place at the very end may come out a rounding error beyond it.
-                let beyond = length.is_some_and(|length| s > length * (1.0 + 1e-12));
-                if !s.is_finite() || s < 0.0 || beyond {
-                    let reach = length
-                        .map_or(String::new(), |length| format!(", which reaches from 0 to {length} m"));
-                    issues.add(path, format!("the place {s} m is not on beam `{}`{reach}", beam.name));
-                }
-            }
-            At::Fraction(_) => {}
-        }
-    }
-
-    fn check_loads(&self, issues: &mut Issues) {
-        for spring in &self.springs {
-            let path = format!("spring.{}", spring.name);
-            for (attachment, word) in [(&spring.from, "from"), (&spring.to, "to")] {
-                self.check_mount(attachment.mount, &format!("{path}.{word}"), issues);
-                issues.finite_vector(format!("{path}.{word}.at"), &attachment.point);
-            }
-            if spring.from == spring.to {
-                issues.add(format!("{path}.to"), "a spring must connect two different points");
-            }
-            let SpringLaw::Linear { stiffness, rest_length } = &spring.law;
-            issues.not_negative(format!("{path}.stiffness"), *stiffness);
-            if let Some(rest_length) = rest_length {
-                issues.not_negative(format!("{path}.rest_length"), *rest_length);
-            }
-        }
-        for mass in &self.masses {
-            let path = format!("mass.{}", mass.name);
-            self.check_at(&mass.point, &format!("{path}.at"), issues);
-            issues.not_negative(format!("{path}.mass"), mass.mass);
-        }
-        for load in &self.loads {
-            let path = format!("load.{}", load.name);
-            match &load.target {
-                LoadTarget::Body { body, point } => {
-                    self.check_mount(Mount::Body(*body), &path, issues);
-                    issues.finite_vector(format!("{path}.at"), point);
-                }
-                LoadTarget::Beam(point) => self.check_at(point, &format!("{path}.at"), issues),
-            }
-            issues.finite_vector(format!("{path}.force"), &load.force);
-            issues.finite_vector(format!("{path}.moment"), &load.moment);
-        }
-    }
-
-    fn check_outputs(&self, issues: &mut Issues) {
-        use crate::ProbeTarget;
-        for output in &self.outputs {
-            let path = format!("output.{}", output.name);
-            if !matches!(output.formulas.len(), 1 | 3) {
-                issues.add(path.clone(), "an output must have one formula, or three for a vector");
-            }
-            for probe in &output.probes {
-                let exists = match probe.target {
-                    ProbeTarget::Beam(beam, at) => {
-                        self.check_station(beam, at, &path, issues);
-                        true
-                    }
-                    ProbeTarget::Body(id) => id.0 < self.bodies.len(),
-                    ProbeTarget::Joint(id) => id.0 < self.joints.len(),
-                    ProbeTarget::Spring(id) => id.0 < self.springs.len(),
-                    ProbeTarget::Cable(id) => id.0 < self.cables.len(),
-                    ProbeTarget::Model => true,
-                };
-                if !exists || probe.component > 35 {
-                    issues.add(path.clone(), "an output refers to something that does not exist");
-                }
-            }
-        }
-    }
 }
 
-/// The arc length (m), where it needs no quadrature.
-fn known_length(curve: &Curve) -> Option<f64> {
-    match curve {
-        Curve::Straight { length } | Curve::Curvature { length, .. } => Some(*length),
-        Curve::Arc { radius, angle } => Some(radius * angle),
-        Curve::Helix { radius, pitch, turns } => Some(turns * (std::f64::consts::TAU * radius).hypot(*pitch)),
-        Curve::Parametric { .. } | Curve::Points { .. } => None,
-    }
-}
-
-/// Checks the rest shape; returns its length where that is known and sound.
-fn check_curve(curve: &Curve, beam: &str, issues: &mut Issues) -> Option<f64> {
-    let before = issues.0.len();
-    let path = format!("{beam}.curve");
-    match curve {
-        Curve::Straight { length } => {
-            issues.positive(format!("{beam}.length"), *length);
-        }
-        Curve::Arc { radius, angle } => {
-            issues.positive(format!("{path}.radius"), *radius);
-            issues.positive(format!("{path}.angle"), *angle);
-        }
-        Curve::Helix { radius, pitch, turns } => {
-            issues.positive(format!("{path}.radius"), *radius);
-            issues.finite(format!("{path}.pitch"), *pitch);
-            issues.positive(format!("{path}.turns"), *turns);
-        }
-        Curve::Parametric { position, range } => {
-            let [from, to] = *range;
-            if !from.is_finite() || !to.is_finite() || from >= to {
-                issues.add(
-                    format!("{path}.range"),
-                    format!("must be two finite, increasing numbers, is [{from}, {to}]"),
-                );
-            } else {
-                for (function, axis) in position.iter().zip(["x", "y", "z"]) {
-                    let bad = (0..=64)
-                        .map(|i| from + (to - from) * f64::from(i) / 64.0)
-                        .find(|t| !function.value(*t).is_finite());
-                    if let Some(t) = bad {
-                        issues.add(
-                            format!("{path}.{axis}"),
-                            format!("gives no finite number at the parameter {t}"),
-                        );
-                    }
-                }
-                if position.iter().all(|function| function.as_constant().is_some()) {
-                    issues
-                        .add(path.clone(), "the curve does not depend on its parameter, so it has no length");
-                }
-            }
-        }
-        Curve::Points { points } => {
-            if points.len() < 2 {
-                issues.add(path.clone(), format!("a curve needs at least 2 points, found {}", points.len()));
-            }
-            for (i, point) in points.iter().enumerate() {
-                issues.finite_vector(format!("{path}.points[{i}]"), point);
-            }
-            if let Some(i) = points.windows(2).position(|pair| pair[0] == pair[1]) {
-                issues.add(
-                    format!("{path}.points[{}]", i + 1),
-                    format!("the points {} and {} are the same", i + 1, i + 2),
-                );
-            }
-        }
-        Curve::Curvature { curvature, length } => {
-            let sound = issues.positive(format!("{path}.length"), *length);
-            for (profile, key) in curvature.iter().zip(["k1", "k2", "k3"]) {
-                let path = format!("{path}.{key}");
-                check_table(profile, &path, issues);
-                if let Some((s, value)) = worst(profile, sound.then_some(*length), |value| value.is_finite())
-                {
-                    issues.add(path, format!("must be finite along the beam, is {value} at s = {s} m"));
-                }
-            }
-        }
-    }
-    if issues.0.len() == before { known_length(curve) } else { None }
-}
-
-fn check_frame(frame: &SectionFrame, path: &str, issues: &mut Issues) {
-    let direction = |vector: &Vector3<f64>, key: &str, issues: &mut Issues| {
-        issues.finite_vector(format!("{path}.{key}"), vector);
-        if *vector == Vector3::zeros() {
-            issues.add(format!("{path}.{key}"), "a direction must not be zero");
-        }
-    };
-    match frame {
-        SectionFrame::Natural => {}
-        SectionFrame::Frenet { offset } => {
-            issues.finite(format!("{path}.offset"), *offset);
-        }
-        SectionFrame::RotationMinimising { start, twist } => {
-            if let Some(start) = start {
-                direction(start, "start", issues);
-            }
-            if let Some(twist) = twist
-                && (twist.value(0.0).is_nan() || twist.value(0.0).abs() > 1e-9)
-            {
-                let message = format!("the twist must be zero at s = 0, is {}", twist.value(0.0));
-                issues.add_with_hint(format!("{path}.twist"), message, "turn the start by `start`");
-            }
-        }
-        SectionFrame::Direction { along } => direction(along, "along", issues),
-    }
-}
-
-fn check_inertia(inertia: &nalgebra::Matrix3<f64>, path: &str, issues: &mut Issues) {
+fn check_inertia(inertia: &Matrix3<f64>, path: &str, issues: &mut Issues) {
     if !inertia.iter().all(|x| x.is_finite()) {
         issues.add(path, "must be finite numbers");
         return;
@@ -471,34 +199,6 @@ fn check_inertia(inertia: &nalgebra::Matrix3<f64>, path: &str, issues: &mut Issu
         issues.add(path, "must be symmetric");
     } else if inertia.symmetric_eigenvalues().iter().any(|value| *value < -1e-9 * scale) {
         issues.add(path, "must not have a negative principal moment");
-    }
-}
-
-fn check_law(law: &JointLaw, path: &str, issues: &mut Issues) {
-    let turning = !matches!(law.kind, JointKind::Weld | JointKind::Spherical | JointKind::Free);
-    if turning && (!law.axis.norm().is_finite() || (law.axis.norm() - 1.0).abs() > 1e-9) {
-        issues.add(format!("{path}.axis"), "the axis must be a unit vector");
-    }
-    if law.coordinates.len() != law.kind.freedoms() {
-        let (found, expected) = (law.coordinates.len(), law.kind.freedoms());
-        issues.add(path, format!("needs the laws of {expected} coordinates, found {found}"));
-    }
-    for coordinate in &law.coordinates {
-        match coordinate.drive {
-            Drive::Free { effort } => issues.finite(format!("{path}.effort"), effort),
-            Drive::Driven { coordinate } => issues.finite(format!("{path}.coordinate"), coordinate),
-        };
-        issues.not_negative(format!("{path}.stiffness"), coordinate.stiffness);
-        issues.finite(format!("{path}.rest"), coordinate.rest);
-        if let Some(limits) = coordinate.limits {
-            let [low, high] = limits.range;
-            if low.is_nan() || high.is_nan() || low >= high {
-                issues.add(format!("{path}.limits.range"), format!("must increase, is [{low}, {high}]"));
-            }
-            if let Some(stiffness) = limits.stiffness {
-                issues.not_negative(format!("{path}.limits.stiffness"), stiffness);
-            }
-        }
     }
 }
 

@@ -1,8 +1,11 @@
 //! Sections and profiles.
 
 use super::Issues;
-use crate::{At, Profile, Shape};
+use crate::{At, Notch, NotchShape, Profile, Shape};
 use flexura_spatial::Matrix6;
+
+/// Lengths that differ by less, relatively, are the same.
+const ROUND_OFF: f64 = 1e-9;
 
 /// The dimensions and stiffnesses of a shape with their keys; may they be zero, may they be infinite?
 fn profiles(shape: &Shape) -> Vec<(&'static str, &Profile, bool, bool)> {
@@ -56,6 +59,10 @@ pub(super) fn check_section_alone(shape: &Shape, path: &str, issues: &mut Issues
             Profile::Constant(value) => std::slice::from_ref(value),
             Profile::Table { value, .. } => value,
             Profile::Function(_) => &[],
+            Profile::Notch(notch) => {
+                check_notch(notch, &path, issues);
+                &[]
+            }
         };
         if let Some(bad) = values.iter().find(|value| !sound(**value, zero, infinite)) {
             issues.add(path, format!("{}, is {bad}", wanted(zero, infinite)));
@@ -72,6 +79,62 @@ pub(super) fn check_section_alone(shape: &Shape, path: &str, issues: &mut Issues
     }
     if let Shape::StiffnessMatrix { matrix, .. } = shape {
         check_matrix(matrix, &format!("{path}.matrix"), issues);
+    }
+}
+
+fn check_notch(notch: &Notch, path: &str, issues: &mut Issues) {
+    issues.positive(format!("{path}.thickness"), notch.thickness);
+    match notch.shape {
+        NotchShape::Circular { radius } => {
+            issues.positive(format!("{path}.radius"), radius);
+        }
+        NotchShape::Elliptic { along, across } => {
+            issues.positive(format!("{path}.semi_axis_along"), along);
+            issues.positive(format!("{path}.semi_axis_across"), across);
+        }
+        NotchShape::CornerFilleted { radius, length } => {
+            let radius_is_sound = issues.positive(format!("{path}.radius"), radius);
+            if let Some(length) = length
+                && issues.positive(format!("{path}.length"), length)
+                && radius_is_sound
+                && 2.0 * radius > length * (1.0 + ROUND_OFF)
+            {
+                issues.add(
+                    format!("{path}.length"),
+                    format!("a notch {length} m long has no room for two fillets of radius {radius} m"),
+                );
+            }
+        }
+    }
+}
+
+/// A notch must lie on the beam, and be the beam where it has no place of its own.
+fn check_notch_along(notch: &Notch, path: &str, length: f64, beam: &str, issues: &mut Issues) {
+    let own = notch.length(length);
+    let (from, to) = (notch.middle(length) - 0.5 * own, notch.middle(length) + 0.5 * own);
+    let margin = ROUND_OFF * length;
+    if let (NotchShape::CornerFilleted { radius, length: None }, None) = (notch.shape, notch.center) {
+        if 2.0 * radius > length + margin {
+            issues.add(
+                format!("{path}.radius"),
+                format!("beam `{beam}` is {length} m long, too short for two fillets of radius {radius} m"),
+            );
+        }
+    } else if notch.center.is_none() && (own - length).abs() > margin {
+        issues.add_with_hint(
+            path,
+            format!("the notch is {own} m long, but beam `{beam}` is {length} m"),
+            "make the beam as long as the notch, or say by `at` where its middle is",
+        );
+    } else if from < -margin || to > length + margin {
+        let middle = notch.middle(length);
+        issues.add_with_hint(
+            path,
+            format!(
+                "a notch {own} m long with its middle at {middle} m does not lie on beam `{beam}`, which is {length} m long"
+            ),
+            "move it by `at`, or make the beam longer",
+        );
     }
 }
 
@@ -104,6 +167,10 @@ pub(super) fn check_section_along(
     issues: &mut Issues,
 ) {
     for (key, profile, zero, infinite) in profiles(shape) {
+        if let Profile::Notch(notch) = profile {
+            let name = beam.trim_start_matches("beam.");
+            check_notch_along(notch, &format!("section.{section}.{key}"), length, name, issues);
+        }
         if !matches!(profile, Profile::Function(_)) {
             continue;
         }
@@ -141,7 +208,7 @@ pub(super) fn worst(
 ) -> Option<(f64, f64)> {
     match profile {
         Profile::Constant(value) => (!good(*value)).then_some((0.0, *value)),
-        Profile::Table { .. } => None,
+        Profile::Table { .. } | Profile::Notch(_) => None,
         Profile::Function(function) => {
             stations(length?).map(|s| (s, function.value(s))).find(|(_, value)| !good(*value))
         }

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::*;
-use flexura_expression::Function;
+use flexura_expression::{Formula, Function};
+use flexura_spatial::{Matrix3, Pose, Vector3};
 
 fn good() -> Model {
     Model {
@@ -66,4 +67,177 @@ fn each_mistake_is_found_where_it_is() {
     assert_eq!(paths(|m| m.sections[0].shape = shape.clone()), ["section.wire.diameter"]);
     let shape = Shape::Circle { diameter: Profile::Table { at: vec![], value: vec![] } };
     assert_eq!(paths(|m| m.sections[0].shape = shape.clone()), ["section.wire.diameter"]);
+}
+
+fn two_bodies(model: &mut Model) {
+    let body = |name: &str| Body {
+        name: name.into(),
+        pose: Pose::identity(),
+        mass: 0.0,
+        center_of_mass: Vector3::zeros(),
+        inertia: Matrix3::zeros(),
+    };
+    model.bodies = vec![body("a"), body("b")];
+    let joint = |name: &str, child, law| Joint {
+        name: name.into(),
+        parent: Frame { mount: Mount::Ground, pose: Pose::identity() },
+        child: Mount::Body(BodyId(child)),
+        child_pose: None,
+        law,
+    };
+    model.joints = vec![
+        joint("cardan", 0, JointLaw::free(JointKind::Universal, Vector3::x())),
+        joint("bushing", 1, JointLaw::free(JointKind::Free, Vector3::x())),
+    ];
+}
+
+fn paths_with_bodies(change: impl Fn(&mut Model)) -> Vec<String> {
+    paths(|model| {
+        two_bodies(model);
+        change(model);
+    })
+}
+
+#[test]
+fn joints_need_sound_axes_and_as_many_laws_as_coordinates() {
+    assert_eq!(paths_with_bodies(|_| {}), [""; 0]);
+    let tilt = |m: &mut Model, axis| m.joints[0].law.second_axis = axis;
+    assert_eq!(paths_with_bodies(|m| m.joints[0].law.axis *= 2.0), ["joint.cardan.axis"]);
+    assert_eq!(paths_with_bodies(|m| tilt(m, Vector3::x())), ["joint.cardan.second_axis"]);
+    assert_eq!(paths_with_bodies(|m| tilt(m, Vector3::zeros())), ["joint.cardan.second_axis"]);
+    assert_eq!(paths_with_bodies(|m| m.joints[0].law.kind = JointKind::Planar), ["joint.cardan"]);
+    let stiff = |m: &mut Model, k: usize| m.joints[1].law.coordinates[k].stiffness = -1.0;
+    assert_eq!(paths_with_bodies(|m| stiff(m, 2)), ["joint.bushing.z.stiffness"]);
+    assert_eq!(paths_with_bodies(|m| stiff(m, 4)), ["joint.bushing.rotation.stiffness"]);
+    let first = |m: &mut Model| m.joints[0].law.coordinates[0].rest = f64::INFINITY;
+    assert_eq!(paths_with_bodies(first), ["joint.cardan.first.rest"]);
+}
+
+#[test]
+fn places_on_beams_must_exist_and_differ() {
+    let on = |beam, at| Mount::Beam(BeamPoint { beam: BeamId(beam), at });
+    let middle = on(0, At::Fraction(0.5));
+    assert_eq!(paths_with_bodies(|m| m.joints[0].child = middle), [""; 0]);
+    assert_eq!(
+        paths_with_bodies(|m| m.joints[0].child = on(3, At::Fraction(0.5))),
+        ["joint.cardan.child.at"]
+    );
+    assert_eq!(paths_with_bodies(|m| m.joints[0].child = on(0, At::Length(1.0))), ["joint.cardan.child.at"]);
+    let same = |m: &mut Model| {
+        m.joints[0].parent.mount = middle;
+        m.joints[0].child = on(0, At::Length(0.05));
+    };
+    assert_eq!(paths_with_bodies(same), ["joint.cardan.child"]);
+    let end = |mount| Some(End { mount, placement: None, hold: JointLaw::weld() });
+    assert_eq!(paths(|m| m.beams[0].end = end(middle)), ["beam.link.end.beam"]);
+    let circle = |m: &mut Model| {
+        m.beams.push(Beam { name: "other".into(), start: end(middle), ..m.beams[0].clone() });
+        m.beams[0].start = end(on(1, At::Fraction(0.5)));
+    };
+    assert_eq!(paths(circle), ["beam.link.start.beam"]);
+    // Only what places a beam counts: the ends may well close a loop.
+    let closed = |m: &mut Model| {
+        m.beams.push(Beam { name: "other".into(), start: end(middle), ..m.beams[0].clone() });
+        m.beams[0].end = end(on(1, At::Fraction(0.5)));
+    };
+    assert_eq!(paths(closed), [""; 0]);
+}
+
+#[test]
+fn couplings_relate_free_coordinates_of_joints() {
+    let term = |joint, coordinate, factor| CouplingTerm { joint: JointId(joint), coordinate, factor };
+    let with = |terms: &[CouplingTerm], offset| {
+        paths_with_bodies(|m| {
+            m.couplings = vec![Coupling { name: "mesh".into(), terms: terms.to_vec(), offset }];
+        })
+    };
+    let good = [term(0, 0, 1.0), term(0, 1, -2.0), term(1, 2, 3.0)];
+    assert_eq!(with(&good, 0.1), [""; 0]);
+    let wrong = ["coupling.mesh"];
+    assert_eq!(with(&good, f64::NAN), wrong);
+    assert_eq!(with(&good[..1], 0.0), wrong);
+    assert_eq!(with(&[good[0], term(1, 3, 1.0)], 0.0), wrong);
+    assert_eq!(with(&[good[0], term(7, 0, 1.0)], 0.0), wrong);
+    assert_eq!(with(&[good[0], term(0, 2, 1.0)], 0.0), wrong);
+    assert_eq!(with(&[good[0], good[0]], 0.0), wrong);
+    assert_eq!(with(&[good[0], term(0, 1, 0.0)], 0.0), wrong);
+    let driven = |m: &mut Model| {
+        m.couplings = vec![Coupling { name: "mesh".into(), terms: good[..2].to_vec(), offset: 0.0 }];
+        for law in &mut m.joints[0].law.coordinates {
+            law.drive = Drive::Driven { coordinate: 0.1 };
+        }
+    };
+    assert_eq!(paths_with_bodies(driven), wrong);
+}
+
+#[test]
+fn cables_need_a_way_and_never_push() {
+    let point = |mount| Guide::Point(Attachment { mount, point: Vector3::zeros() });
+    let beam = |at| point(Mount::Beam(BeamPoint { beam: BeamId(0), at: At::Fraction(at) }));
+    let channel = |from, to| Guide::Channel {
+        beam: BeamId(0),
+        between: [At::Fraction(from), At::Fraction(to)],
+        offset: [0.004.into(), 0.0.into()],
+    };
+    let with = |route: Vec<Guide>, law| {
+        paths(|m| m.cables = vec![Cable { name: "flexor".into(), route: route.clone(), law }])
+    };
+    let pull = CableLaw::Tension(10.0);
+    assert_eq!(with(vec![point(Mount::Ground), beam(1.0)], pull), [""; 0]);
+    assert_eq!(with(vec![channel(1.0, 0.0)], CableLaw::Length(0.1)), [""; 0]);
+    assert_eq!(with(vec![channel(0.0, 1.0)], CableLaw::Tension(-1.0)), ["cable.flexor.tension"]);
+    assert_eq!(with(vec![channel(0.0, 1.0)], CableLaw::Length(0.0)), ["cable.flexor.length"]);
+    assert_eq!(with(vec![beam(0.5)], pull), ["cable.flexor.route"]);
+    assert_eq!(with(Vec::new(), pull), ["cable.flexor.route"]);
+    assert_eq!(with(vec![beam(0.5), beam(0.5)], pull), ["cable.flexor.route[1]"]);
+    assert_eq!(with(vec![channel(0.3, 0.3)], pull), ["cable.flexor.route[0].to"]);
+    assert_eq!(with(vec![channel(0.3, 1.3)], pull), ["cable.flexor.route[0].to"]);
+    let lost = point(Mount::Body(BodyId(0)));
+    assert_eq!(with(vec![lost, beam(0.5)], pull), ["cable.flexor.route[0].body"]);
+}
+
+#[test]
+fn unknowns_and_targets_come_in_equal_numbers() {
+    let probe = Probe { target: ProbeTarget::Model, quantity: Quantity::Energy, component: 0 };
+    let output = |formulas| Output { name: "e".into(), unit: "N*m".into(), formulas, probes: vec![probe] };
+    let with = |unknowns: &[Unknown], value: f64, formulas: usize| {
+        let target = Target { output: output(vec![Formula::slot(0); formulas]), value };
+        paths(|m| {
+            m.parameters = vec![Parameter { name: "push".into(), value: 2.0, unit: "N".into() }];
+            (m.unknowns, m.targets) = (unknowns.to_vec(), vec![target.clone()]);
+        })
+    };
+    let push = |range| Unknown { parameter: 0, range };
+    assert_eq!(with(&[push(Some([0.0, 10.0]))], 1.0, 1), [""; 0]);
+    assert_eq!(with(&[push(Some([3.0, 10.0]))], 1.0, 1), ["unknown.push.range"]);
+    assert_eq!(with(&[push(Some([3.0, 1.0]))], 1.0, 1), ["unknown.push.range"]);
+    assert_eq!(with(&[push(None)], f64::NAN, 1), ["target"]);
+    assert_eq!(with(&[push(None)], 1.0, 3), ["target"]);
+    assert_eq!(with(&[], 1.0, 1), ["target"]);
+    assert_eq!(with(&[push(None), push(None)], 1.0, 1), ["unknown.push", "unknown"]);
+    assert_eq!(with(&[Unknown { parameter: 4, range: None }], 1.0, 1), ["unknown"]);
+}
+
+#[test]
+fn notches_must_fit_their_beam() {
+    let with = |shape, thickness, center| {
+        let height = Profile::Notch(Notch { shape, thickness, center });
+        paths(|m| m.sections[0].shape = Shape::Rectangle { width: 0.01.into(), height: height.clone() })
+    };
+    let circular = |radius| NotchShape::Circular { radius };
+    let filleted = |radius, length| NotchShape::CornerFilleted { radius, length };
+    let middle = Some(At::Fraction(0.5));
+    assert_eq!(with(circular(0.05), 1e-3, None), [""; 0]);
+    assert_eq!(with(circular(0.01), 1e-3, middle), [""; 0]);
+    assert_eq!(with(filleted(0.01, None), 1e-3, None), [""; 0]);
+    let height = ["section.wire.height"];
+    assert_eq!(with(circular(0.01), 1e-3, None), height);
+    assert_eq!(with(circular(0.01), 1e-3, Some(At::Length(0.095))), height);
+    assert_eq!(with(circular(0.05), 0.0, None), ["section.wire.height.thickness"]);
+    assert_eq!(with(filleted(0.06, None), 1e-3, None), ["section.wire.height.radius"]);
+    assert_eq!(with(filleted(0.01, Some(0.015)), 1e-3, middle), ["section.wire.height.length"]);
+    assert_eq!(
+        with(NotchShape::Elliptic { along: 0.05, across: -1.0 }, 1e-3, None),
+        ["section.wire.height.semi_axis_across"]
+    );
 }

@@ -1,9 +1,11 @@
 //! Beams with their ends and distributed loads.
 
-use super::body::{law, pose};
 use super::curve::{curve, frame};
+use super::joint::law;
+use super::place;
 use crate::context::{Needed, Read, Reported};
 use crate::reader::Reader;
+use crate::tree::Value;
 use flexura_model::{Beam, BeamTheory, Curve, Distributed, End, LoadAxes, MaterialId, Profile, SectionId};
 
 pub(super) fn beam(reader: &Reader<'_, '_>, name: String) -> Read<Beam> {
@@ -11,8 +13,8 @@ pub(super) fn beam(reader: &Reader<'_, '_>, name: String) -> Read<Beam> {
     let section = reader.name("section").needed();
     let curve = shape(reader);
     let frame = frame(reader);
-    let start = end(reader, "start");
-    let end = end(reader, "end");
+    let start = end(reader, "start", &name);
+    let end = end(reader, "end", &name);
     let shear = reader.flag("shear");
     let extension = reader.flag("extension");
     let distributed = distributed(reader);
@@ -49,14 +51,21 @@ fn shape(reader: &Reader<'_, '_>) -> Read<Curve> {
     }
 }
 
-fn end(reader: &Reader<'_, '_>, key: &str) -> Read<Option<End>> {
+fn end(reader: &Reader<'_, '_>, key: &str, beam: &str) -> Read<Option<End>> {
     let Some(table) = reader.table(key)? else { return Ok(None) };
-    let body = table.body("body").needed();
-    let pose = pose(&table);
+    let frame = place::frame(&table);
     let hold = law(&table);
-    let placed = table.has("at") || table.has("rotation");
-    let pose = pose?;
-    Ok(Some(End { mount: body?, placement: placed.then_some(pose), hold: hold? }))
+    if let Some((entry, _)) = table.entry("beam")
+        && matches!(&entry.node.value, Value::Text(name) if name == beam)
+    {
+        return Err(table.wrong_at(
+            "beam",
+            "a beam cannot hold its own end",
+            "name another beam, or a body; a joint may connect two places of one beam",
+        ));
+    }
+    let (mount, placement) = frame?;
+    Ok(Some(End { mount, placement, hold: hold? }))
 }
 
 fn distributed(reader: &Reader<'_, '_>) -> Read<Vec<Distributed>> {

@@ -121,7 +121,7 @@ pub(super) fn frame(reader: &Reader<'_, '_>) -> Read<SectionFrame> {
                 None => None,
                 Some(Profile::Constant(value)) => Some(Function::constant(value)),
                 Some(Profile::Function(function)) => Some(function),
-                Some(Profile::Table { .. }) => return Err(Reported),
+                Some(Profile::Table { .. } | Profile::Notch(_)) => return Err(Reported),
             };
             Ok(SectionFrame::RotationMinimising { start: start?, twist })
         }

@@ -5,7 +5,7 @@ use crate::format::{Key, Need, Shape as Format};
 use crate::reader::Reader;
 use crate::tree::{Node, Value};
 use flexura_expression::{Dimension, nearest};
-use flexura_model::{At, Material, Profile, Section, Shape};
+use flexura_model::{At, Material, Notch, NotchShape, Profile, Section, Shape};
 use flexura_spatial::Matrix6;
 use std::collections::BTreeMap;
 
@@ -94,13 +94,40 @@ impl Dimensions<'_, '_, '_> {
                 "give it in one place only",
             )),
             Some(profile) => Ok(Some(profile.clone())),
-            None => self.reader.profile(key),
+            None => match self.reader.entry(key) {
+                Some((entry, Key { shape: shape @ Format::Notched(_), .. }))
+                    if matches!(entry.node.value, Value::Table(_)) =>
+                {
+                    let table = shape.table().ok_or(Reported)?;
+                    let path = self.reader.key_path(key);
+                    notch(&Reader::open(self.reader.context, entry, table, &path)?).map(Some)
+                }
+                _ => self.reader.profile(key),
+            },
         }
     }
 
     fn get(&self, key: &str) -> Read<Profile> {
         self.optional(key)?.ok_or_else(|| self.reader.missing_key(key))
     }
+}
+
+fn notch(table: &Reader<'_, '_>) -> Read<Profile> {
+    let thickness = table.number("thickness").needed();
+    let center = table.station("at");
+    let shape = match table.variant {
+        "circular" => NotchShape::Circular { radius: table.number("radius").needed()? },
+        "elliptic" => {
+            let (along, across) = (table.number("semi_axis_along"), table.number("semi_axis_across"));
+            NotchShape::Elliptic { along: along.needed()?, across: across.needed()? }
+        }
+        "corner_filleted" => {
+            let (radius, length) = (table.number("radius"), table.number("length"));
+            NotchShape::CornerFilleted { radius: radius.needed()?, length: length? }
+        }
+        _ => return Err(Reported),
+    };
+    Ok(Profile::Notch(Notch { shape, thickness: thickness?, center: center? }))
 }
 
 /// Reads the rows of `along`: every row has `at` and the same keys as the first.
@@ -128,7 +155,7 @@ fn along(reader: &Reader<'_, '_>) -> Read<BTreeMap<&'static str, Profile>> {
         .keys()
         .iter()
         .copied()
-        .filter(|key| matches!(key.shape, Format::Profile(_) | Format::Stiffness(_)))
+        .filter(|key| matches!(key.shape, Format::Profile(_) | Format::Notched(_) | Format::Stiffness(_)))
         .collect();
     let mut places: Vec<At> = Vec::new();
     let mut columns: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();

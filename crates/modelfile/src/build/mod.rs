@@ -2,10 +2,15 @@
 
 mod beam;
 mod body;
+mod cable;
+mod coupling;
 mod curve;
+mod joint;
 mod load;
 mod material;
-mod output;
+mod place;
+mod result;
+mod unknown;
 
 use crate::context::Context;
 use crate::format::{FILE, Key, Named, Shape, Table};
@@ -14,22 +19,29 @@ use crate::reader::Reader;
 use crate::tree::{Entry, Value};
 use flexura_model::{Model, Parameter, name_problem};
 use flexura_spatial::Vector3;
+use std::collections::BTreeSet;
+
+/// Evaluates the parameters, on which everything else may depend.
+pub(crate) fn parameters(context: &mut Context<'_>, overrides: &[(String, String)]) {
+    for word in ["parameter", "unknown"] {
+        named_entries(context, word);
+    }
+    parameters::evaluate(context, overrides);
+}
 
 /// Reads the whole file. None: something is wrong, which has been recorded.
-pub(crate) fn model(context: &mut Context<'_>, overrides: &[(String, String)]) -> Option<Model> {
+pub(crate) fn model(context: &Context<'_>) -> Option<Model> {
     let root = context.root;
-    parameters::evaluate(context, named_entries(context, "parameter"), overrides);
-    let context = &*context;
     let file = Reader::open_node(context, root, &(0..0), &FILE, "").ok()?;
     let mut model = Model {
         name: file.text("name").ok().flatten().unwrap_or_default().to_string(),
         gravity: file.vector("gravity").ok().flatten().unwrap_or_else(Vector3::zeros),
         ..Model::default()
     };
-    for entry in named_entries(context, "parameter") {
-        if let Some(Some(quantity)) = context.parameters.get(&entry.key) {
+    for declared in parameters::declared(root) {
+        if let Some(Some(quantity)) = context.parameters.get(declared.name) {
             model.parameters.push(Parameter {
-                name: entry.key.clone(),
+                name: declared.name.to_string(),
                 value: quantity.value,
                 unit: quantity.kind.dimension().unit(),
             });
@@ -39,20 +51,33 @@ pub(crate) fn model(context: &mut Context<'_>, overrides: &[(String, String)]) -
     model.sections = each(context, "section", material::section);
     model.bodies = each(context, "body", body::body);
     model.beams = each(context, "beam", beam::beam);
-    model.joints = each(context, "joint", body::joint);
+    model.joints = each(context, "joint", joint::joint);
+    let couplings = each(context, "coupling", |reader, name| coupling::coupling(reader, name, &model.joints));
+    model.couplings = couplings;
     model.springs = each(context, "spring", load::spring);
+    model.cables = each(context, "cable", cable::cable);
     model.masses = each(context, "mass", load::mass);
     model.loads = each(context, "load", load::load);
+    let mut outputs = Vec::new();
     for entry in named_entries(context, "output") {
         name(context, "output", entry);
-        if let Ok(output) = output::output(context, entry, &model) {
-            model.outputs.push(output);
+        if let Ok(output) = result::output(context, entry, &model) {
+            outputs.push(output);
         }
+    }
+    model.unknowns = unknown::unknowns(context, &model);
+    model.targets = result::targets(context, named_entries(context, "target"), &model, &outputs);
+    model.outputs = outputs.into_iter().map(|built| built.output).collect();
+    if !context.any_problem() {
+        unknown::check_count(context, &model);
     }
     if context.any_problem() {
         return None;
     }
     for issue in model.validate() {
+        if context.is_full() {
+            break;
+        }
         let span = root.locate(&issue.path).unwrap_or(0..0);
         let mut problem = context.problem(&span, &issue.path, issue.message);
         problem.hint = issue.hint;
@@ -67,7 +92,7 @@ pub(crate) fn named_entries<'a>(context: &Context<'a>, word: &str) -> &'a [Entry
     if !matches!(entry.node.value, Value::Table(_)) {
         let message = format!("expected named tables, found {}", entry.node.kind());
         let hint = match FILE.keys.iter().find(|key| key.name == word) {
-            Some(Key { shape: Shape::NamedTables(_), .. }) => {
+            Some(Key { shape: Shape::NamedTables(_) | Shape::Unknowns(_), .. }) => {
                 format!("write `[{word}.NAME]` and the keys below it")
             }
             _ => format!("write `[{word}]` and `NAME = ...` below it"),
@@ -88,16 +113,21 @@ fn name(context: &Context<'_>, word: &str, entry: &Entry) {
     }
 }
 
+/// The descriptor of a kind of named tables.
+fn table_of(word: &str) -> Option<&'static Table> {
+    match FILE.keys.iter().find(|key| key.name == word)?.shape {
+        Shape::NamedTables(table) | Shape::Unknowns(table) => Some(table),
+        _ => None,
+    }
+}
+
 /// Builds each named thing. Where one fails the list is short, but then nothing is made of it.
 fn each<'c, 'a, T>(
     context: &'c Context<'a>,
     word: &'static str,
-    build: fn(&Reader<'c, 'a>, String) -> crate::context::Read<T>,
+    build: impl Fn(&Reader<'c, 'a>, String) -> crate::context::Read<T>,
 ) -> Vec<T> {
-    let table: &'static Table = match FILE.keys.iter().find(|key| key.name == word) {
-        Some(Key { shape: Shape::NamedTables(table), .. }) => table,
-        _ => return Vec::new(),
-    };
+    let Some(table) = table_of(word) else { return Vec::new() };
     let mut built = Vec::new();
     for entry in named_entries(context, word) {
         name(context, word, entry);
@@ -120,13 +150,19 @@ pub(crate) fn unused(context: &Context<'_>) -> Vec<crate::report::Problem> {
         ("section", ""),
         (Named::Body.word(), " and nothing holds or loads it"),
     ];
+    // A repeated table is told once.
+    let mut told = BTreeSet::new();
     for (word, more) in kinds {
         for entry in context.root.get(word).map_or(&[][..], |entry| entry.node.entries()) {
-            if !context.is_used(word, &entry.key) {
-                let path = format!("{word}.{}", entry.key);
-                let message = format!("the {word} `{}` is never used{more}", entry.key);
-                warnings.push(context.problem(&entry.key_span, &path, message).warning());
+            if context.is_used(word, &entry.key) {
+                continue;
             }
+            let path = format!("{word}.{}", entry.key);
+            if context.is_copy(&path) && !told.insert(entry.key_span.start) {
+                continue;
+            }
+            let message = format!("the {word} `{}` is never used{more}", entry.key);
+            warnings.push(context.problem(&entry.key_span, &path, message).warning());
         }
     }
     warnings.sort_by_key(|warning| warning.span.start);

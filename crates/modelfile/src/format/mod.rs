@@ -1,9 +1,12 @@
 //! The model file's format, written once: the reader, the JSON Schema and the reference page all follow it.
 //!
-//! The statics in [`tables`] and [`attachments`] say which keys there are, what stands behind each, its dimension, whether it
+//! The statics in the files beside this one say which keys there are, what stands behind each, its dimension, whether it
 //! is needed, and give an example. What a builder does with the values is not said here.
 
 mod attachments;
+mod joints;
+mod relations;
+mod sections;
 mod tables;
 
 use flexura_expression::Dimension;
@@ -66,6 +69,7 @@ pub(crate) enum Named {
     BodyOrGround,
     Joint,
     Spring,
+    Cable,
 }
 
 impl Named {
@@ -77,6 +81,7 @@ impl Named {
             Named::Body | Named::BodyOrGround => "body",
             Named::Joint => "joint",
             Named::Spring => "spring",
+            Named::Cable => "cable",
         }
     }
 }
@@ -94,7 +99,9 @@ pub(crate) enum Shape {
     Quaternion,
     /// A number or an expression of s.
     Profile(Dimension),
-    /// The same, where `inf` is allowed.
+    /// The same, or the table of a notch.
+    Notched(Dimension),
+    /// A number or an expression of s, where `inf` is allowed.
     Stiffness(Dimension),
     /// Three numbers or expressions of s.
     Profiles(Dimension),
@@ -116,7 +123,7 @@ pub(crate) enum Shape {
     Choice(&'static [(&'static str, &'static str)]),
     /// The name of something.
     Name(Named),
-    /// The name of a body, or a table that places a frame on it.
+    /// The name of a body, or a table that places a frame on it or on a beam.
     Placed(&'static Table),
     /// A table.
     Table(&'static Table),
@@ -128,6 +135,20 @@ pub(crate) enum Shape {
     NamedNumbers,
     /// A table of named expressions over results.
     NamedOutputs,
+    /// The indices of a repeated table.
+    Repeat,
+    /// A table of unknown parameters.
+    Unknowns(&'static Table),
+    /// A table of values, named by expressions over results.
+    NamedTargets,
+    /// A number of the dimension of something else.
+    AnyNumber,
+    /// Two such numbers.
+    AnyRange,
+    /// Two expressions of joint coordinates with an equals sign between them.
+    Equation,
+    /// Three lengths, or two lengths or expressions of s.
+    Offset,
     /// A list of points.
     Points,
     /// Rows of dimensions along the beam, keys as in the same table.
@@ -137,15 +158,30 @@ pub(crate) enum Shape {
 }
 
 impl Shape {
+    /// The table that may stand behind the key.
+    pub(crate) fn table(&self) -> Option<&'static Table> {
+        match self {
+            Shape::Notched(_) => Some(&sections::NOTCH),
+            Shape::Table(table)
+            | Shape::Tables(table)
+            | Shape::Placed(table)
+            | Shape::NamedTables(table)
+            | Shape::Unknowns(table) => Some(table),
+            _ => None,
+        }
+    }
+
     pub(crate) fn dimension(&self) -> Dimension {
         match self {
             Shape::Number(d)
             | Shape::Vector(d)
             | Shape::Range(d)
             | Shape::Profile(d)
+            | Shape::Notched(d)
             | Shape::Stiffness(d)
             | Shape::Profiles(d)
             | Shape::Function(d) => *d,
+            Shape::Offset => Dimension::LENGTH,
             _ => Dimension::NUMBER,
         }
     }
@@ -163,6 +199,7 @@ impl Shape {
             Shape::Range(_) => numbers("two", "numbers"),
             Shape::Quaternion => "four numbers".into(),
             Shape::Profile(_) => format!("{dimension} or an expression of s"),
+            Shape::Notched(_) => format!("{dimension}, an expression of s, or the table of a notch"),
             Shape::Stiffness(_) => format!("{dimension}, `inf`, or an expression of s"),
             Shape::Profiles(_) => numbers("three", "numbers or expressions of s"),
             Shape::Matrix6 => "six rows of six numbers".into(),
@@ -182,6 +219,13 @@ impl Shape {
             Shape::NamedTables(_) => "named tables".into(),
             Shape::NamedNumbers => "named numbers".into(),
             Shape::NamedOutputs => "named expressions".into(),
+            Shape::Repeat => "indices, each with a count or its first and last value".into(),
+            Shape::Unknowns(_) => "named tables".into(),
+            Shape::NamedTargets => "numbers, named by expressions over results".into(),
+            Shape::AnyNumber => "a number of the parameter's dimension".into(),
+            Shape::AnyRange => "two numbers of the parameter's dimension".into(),
+            Shape::Equation => "an equation between joint coordinates".into(),
+            Shape::Offset => "three lengths, or two lengths or expressions of s".into(),
             Shape::Points => "a list of points, each three numbers (m)".into(),
             Shape::Along => "a list of rows, each `at` and the dimensions there".into(),
             Shape::Version => "the number 1".into(),
@@ -193,7 +237,7 @@ impl Shape {
         match self {
             Shape::Name(_) | Shape::Choice(_) => "a text".into(),
             Shape::Vector(_) | Shape::Profiles(_) => "a list of 3 numbers".into(),
-            Shape::Range(_) => "a list of 2 numbers".into(),
+            Shape::Range(_) | Shape::AnyRange => "a list of 2 numbers".into(),
             Shape::Quaternion => "a list of 4 numbers".into(),
             other => other.describe(),
         }

@@ -1,8 +1,11 @@
 //! Tables of what a mechanism is made of: file, materials, sections, beams, curves.
 
-use super::attachments::{BODY, END, JOINT, LOAD, MASS, SPRING};
+use super::attachments::{BODY, LOAD, MASS, SPRING};
+use super::joints::{END, JOINT};
+use super::relations::{CABLE, COUPLING, UNKNOWN};
+use super::sections::SECTION;
 use super::{Key, Named, Need, Shape, Table, Variant, Variants};
-use Need::{Along, Default, Optional, Required};
+use Need::{Default, Optional, Required};
 use flexura_expression::Dimension as D;
 
 pub(super) const fn key(
@@ -52,7 +55,20 @@ pub(crate) static FILE: Table = table(
             "{ slider = { ... } }",
             "Rigid bodies; `ground` is there without being named.",
         ),
-        key("joint", Shape::NamedTables(&JOINT), Optional, "{ way = { ... } }", "Joints between bodies."),
+        key(
+            "joint",
+            Shape::NamedTables(&JOINT),
+            Optional,
+            "{ way = { ... } }",
+            "Joints between bodies or beams.",
+        ),
+        key(
+            "coupling",
+            Shape::NamedTables(&COUPLING),
+            Optional,
+            "{ mesh = { ... } }",
+            "Linear relations between joint coordinates.",
+        ),
         key(
             "spring",
             Shape::NamedTables(&SPRING),
@@ -60,6 +76,7 @@ pub(crate) static FILE: Table = table(
             "{ ligament = { ... } }",
             "Springs between two points.",
         ),
+        key("cable", Shape::NamedTables(&CABLE), Optional, "{ flexor = { ... } }", "Cables (tendons)."),
         key("mass", Shape::NamedTables(&MASS), Optional, "{ sensor = { ... } }", "Lumped masses on beams."),
         key("load", Shape::NamedTables(&LOAD), Optional, "{ push = { ... } }", "Forces and moments."),
         key(
@@ -69,7 +86,30 @@ pub(crate) static FILE: Table = table(
             "{ w = \"beam.link.end.position.z\" }",
             "What to read off a result.",
         ),
+        key(
+            "unknown",
+            Shape::Unknowns(&UNKNOWN),
+            Optional,
+            "{ push = { guess = \"1 N\" } }",
+            "An inverse problem: parameters to be found, as many as there are targets.",
+        ),
+        key(
+            "target",
+            Shape::NamedTargets,
+            Optional,
+            "{ \"body.slider.position.x\" = \"140 mm\" }",
+            "Wanted values of results; each key is an expression over results as in [output], or over `output.NAME`.",
+        ),
     ],
+);
+
+/// What every named table may have; it is gone before the table is read.
+pub(crate) const REPEAT: Key = key(
+    "repeat",
+    Shape::Repeat,
+    Optional,
+    "{ i = 10, j = [1, 5] }",
+    "Makes a table for every combination of the indices; `{i}` in the name and in texts becomes a number.",
 );
 
 pub(crate) static MATERIAL: Table = table(
@@ -94,120 +134,6 @@ pub(crate) static MATERIAL: Table = table(
         ),
     ],
 );
-
-const MASS_PER_LENGTH: Key = key(
-    "mass_per_length",
-    Shape::Profile(D::MASS_PER_LENGTH),
-    Default("massless"),
-    "\"20 g/m\"",
-    "Mass per length.",
-);
-
-pub(crate) static SECTION: Table = Table {
-    doc: "A cross section: e2 runs along the width, e3 along the height. Every dimension may be an expression of the arc length s.",
-    keys: &[
-        key(
-            "plane_strain",
-            Shape::Flag,
-            Default("false"),
-            "true",
-            "The strip is too wide to contract sideways: bending stiffness E/(1 - poisson^2).",
-        ),
-        key(
-            "along",
-            Shape::Along,
-            Optional,
-            "[{ at = 0, width = \"20 mm\" }, { at = 1, width = \"10 mm\" }]",
-            "Dimensions that vary along the beam, straight lines between the rows.",
-        ),
-    ],
-    variants: Some(Variants {
-        by: "shape",
-        by_doc: "The shape.",
-        default: None,
-        list: &[
-            variant(
-                "rectangle",
-                "A solid rectangle.",
-                &[
-                    key("width", Shape::Profile(D::LENGTH), Along, "\"20.32 mm\"", "Along e2."),
-                    key("height", Shape::Profile(D::LENGTH), Along, "\"0.254 mm\"", "Along e3."),
-                ],
-            ),
-            variant(
-                "circle",
-                "A solid circle.",
-                &[key("diameter", Shape::Profile(D::LENGTH), Along, "\"1.397 mm\"", "Diameter.")],
-            ),
-            variant(
-                "tube",
-                "A round tube.",
-                &[
-                    key("outer_diameter", Shape::Profile(D::LENGTH), Along, "\"3 mm\"", "Outer diameter."),
-                    key("inner_diameter", Shape::Profile(D::LENGTH), Along, "\"2 mm\"", "Inner diameter."),
-                ],
-            ),
-            variant(
-                "ellipse",
-                "A solid ellipse.",
-                &[
-                    key("width", Shape::Profile(D::LENGTH), Along, "\"20 mm\"", "Full axis along e2."),
-                    key("height", Shape::Profile(D::LENGTH), Along, "\"10 mm\"", "Full axis along e3."),
-                ],
-            ),
-            variant(
-                "stiffness",
-                "Stiffnesses given directly: EA, GJ, EI2, EI3 (and GA2, GA3 for a beam that shears), or `matrix`. No stress is reported.",
-                &[
-                    key("EA", Shape::Stiffness(D::FORCE), Along, "\"1e6 N\"", "Axial stiffness."),
-                    key(
-                        "GJ",
-                        Shape::Stiffness(D::BENDING_STIFFNESS),
-                        Along,
-                        "\"0.5 N*m^2\"",
-                        "Torsional stiffness.",
-                    ),
-                    key(
-                        "EI2",
-                        Shape::Stiffness(D::BENDING_STIFFNESS),
-                        Along,
-                        "\"0.7 N*m^2\"",
-                        "Stiffness of bending about e2.",
-                    ),
-                    key(
-                        "EI3",
-                        Shape::Stiffness(D::BENDING_STIFFNESS),
-                        Along,
-                        "\"0.7 N*m^2\"",
-                        "Stiffness of bending about e3.",
-                    ),
-                    key(
-                        "GA2",
-                        Shape::Stiffness(D::FORCE),
-                        Optional,
-                        "\"4e5 N\"",
-                        "Shear stiffness along e2, shear factor included.",
-                    ),
-                    key(
-                        "GA3",
-                        Shape::Stiffness(D::FORCE),
-                        Optional,
-                        "\"4e5 N\"",
-                        "Shear stiffness along e3, shear factor included.",
-                    ),
-                    key(
-                        "matrix",
-                        Shape::Matrix6,
-                        Optional,
-                        "[[1e6, 0, 0, 0, 0, 0], ...]",
-                        "The full symmetric stiffness, from (stretch, shear 2, shear 3, twist, bending 2, bending 3) to (F1, F2, F3, M1, M2, M3), instead of the keys above.",
-                    ),
-                    MASS_PER_LENGTH,
-                ],
-            ),
-        ],
-    }),
-};
 
 pub(crate) static BEAM: Table = table(
     "A flexible beam. Give `length` (straight along the x axis of its start frame) or `curve`.",
