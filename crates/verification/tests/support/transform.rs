@@ -147,7 +147,7 @@ fn scale(profile: &mut Profile, factor: f64) {
     match profile {
         Profile::Constant(value) => *value *= factor,
         Profile::Table { value, .. } => value.iter_mut().for_each(|value| *value *= factor),
-        Profile::Function(_) => panic!("not needed here"),
+        Profile::Function(_) | Profile::Notch(_) => panic!("not needed here"),
     }
 }
 
