@@ -87,6 +87,11 @@ impl<'a> Context<'a> {
         self.copies.is_some_and(|copies| copies.is_copy(path))
     }
 
+    /// Was the same told of another copy of the table?
+    pub(crate) fn is_told(&self, span: &Range<usize>, path: &str) -> bool {
+        self.is_copy(path) && self.alike.borrow().contains_key(&(span.start, span.end))
+    }
+
     /// Records a problem; beyond the most that are kept, it is only counted.
     pub(crate) fn record(&self, problem: Problem) -> Reported {
         if self.is_copy(&problem.path) {
@@ -114,9 +119,8 @@ impl<'a> Context<'a> {
 
     pub(crate) fn problem(&self, span: &Range<usize>, path: &str, message: impl Into<String>) -> Problem {
         let copy = self.copies.and_then(|copies| copies.values(path));
-        let known = || self.alike.borrow().contains_key(&(span.start, span.end));
         // Finding line and column takes a walk through the text; not where no one will see them.
-        if copy.is_some() && known() {
+        if self.is_told(span, path) {
             let mut problem = Problem::of_file(&self.source.name, message);
             (problem.path, problem.span) = (path.to_string(), span.clone());
             return problem;

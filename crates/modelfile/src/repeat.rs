@@ -18,6 +18,8 @@ pub(crate) use pattern::stands_for;
 
 /// Most copies in a file.
 const MOST: usize = 200_000;
+/// Most values in the copies of a table: what fits into memory with ease.
+const MOST_VALUES: f64 = 2e7;
 
 /// A tree in which nothing is repeated any more.
 pub(crate) struct Expanded {
@@ -96,6 +98,21 @@ pub(crate) fn expand(context: &Context<'_>) -> Read<Option<Expanded>> {
 
 fn is_repeated(entry: &Entry) -> bool {
     entry.node.entries().iter().any(|inner| inner.node.get("repeat").is_some())
+}
+
+/// How many values a node holds, itself included.
+fn values_in(node: &Node) -> f64 {
+    let mut count = 0.0;
+    let mut open = vec![node];
+    while let Some(node) = open.pop() {
+        count += 1.0;
+        match &node.value {
+            Value::List(list) => open.extend(list),
+            Value::Table(entries) => open.extend(entries.iter().map(|entry| &entry.node)),
+            _ => {}
+        }
+    }
+    count
 }
 
 /// Braces where nothing is repeated.
@@ -225,6 +242,14 @@ impl<'c, 'a> Template<'c, 'a> {
         if count > *left as f64 {
             let message = format!("the file would have {} tables of `repeat`", count + (MOST - *left) as f64);
             return Err(self.wrong(message, format!("there may be {MOST} in all")));
+        }
+        let values = count * values_in(&self.entry.node);
+        if values > MOST_VALUES {
+            let message = format!("the copies of this table would hold {values} values");
+            return Err(self.wrong(
+                message,
+                format!("there may be {MOST_VALUES}; long lists of points belong in a file"),
+            ));
         }
         *left -= count as usize;
         all.reserve(count as usize);

@@ -343,13 +343,38 @@ fn the_schema_is_json_and_knows_every_table() {
     let schema: serde_json::Value = serde_json::from_str(&schema()).unwrap();
     assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
     assert_eq!(schema["additionalProperties"], false);
-    for table in
-        ["parameter", "material", "section", "beam", "body", "joint", "spring", "mass", "load", "output"]
-    {
+    for table in [
+        "parameter",
+        "material",
+        "section",
+        "beam",
+        "body",
+        "joint",
+        "coupling",
+        "spring",
+        "cable",
+        "mass",
+        "load",
+        "output",
+        "unknown",
+        "target",
+    ] {
         assert!(schema["properties"][table]["description"].is_string(), "{table}");
     }
+    let repeat =
+        &schema["properties"]["coupling"]["allOf"][0]["additionalProperties"]["properties"]["repeat"];
+    assert!(repeat["description"].is_string());
     let page = reference_markdown();
-    for word in ["`[", "yield_strength", "quat_wxyz", "inner_diameter", "| `lbf` |", "`beam.NAME.curve`"] {
+    for word in [
+        "`[",
+        "yield_strength",
+        "quat_wxyz",
+        "inner_diameter",
+        "| `lbf` |",
+        "`beam.NAME.curve`",
+        "## Repeating",
+        "`compliance.ROW.COLUMN`",
+    ] {
         assert!(page.contains(word) || word == "`[", "{word}");
     }
 }

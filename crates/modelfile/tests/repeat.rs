@@ -111,3 +111,28 @@ fn the_same_mistake_in_every_copy_is_told_once_and_quickly() {
     assert_eq!(message, "there is no section `wird` (for i = 0, j = 0; and so in 9999 more copies)");
     assert!(begin.elapsed().as_secs_f64() < 2.0);
 }
+
+#[test]
+fn a_name_that_every_copy_misses_is_told_once_and_quickly() {
+    let text = format!("{HEAD}{GRID}")
+        .replace("[1, 2]", "100")
+        .replace("body = \"n_{i+1}_{j}\"", "body = \"m_{i}_{j}\"");
+    let begin = Instant::now();
+    let report = Document::parse(&text, "x.toml")
+        .unwrap()
+        .model(&[("cells".to_string(), "100".to_string())])
+        .unwrap_err();
+    assert_eq!(report.problems().len(), 1);
+    assert!(begin.elapsed().as_secs_f64() < 2.0);
+}
+
+#[test]
+fn copies_that_would_not_fit_into_memory_are_refused() {
+    let points = "[0, 0, 0], ".repeat(10_000);
+    let text = format!(
+        "{HEAD}[beam.\"b_{{i}}\"]\nrepeat = {{ i = 100000 }}\nsection = \"wire\"\nmaterial = \"steel\"\n\
+         curve = {{ kind = \"points\", points = [{points}] }}\n"
+    );
+    let report = Document::parse(&text, "x.toml").unwrap().model(&[]).unwrap_err();
+    assert!(report.problems()[0].message.starts_with("the copies of this table would hold"), "{report}");
+}

@@ -174,6 +174,9 @@ impl Relation<'_, '_> {
         }
         let (name, span) = walk.name("the name of a joint", example)?;
         let Some(position) = self.context.position(Named::Joint, name) else {
+            if self.context.is_told(&self.node.span, self.path) {
+                return Err(ExpressionError::new(String::new(), span));
+            }
             let (message, hint) = self.context.unknown_name(Named::Joint, name);
             return Err(ExpressionError::new(message, span).with_hint(hint));
         };

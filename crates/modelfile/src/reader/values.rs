@@ -152,6 +152,9 @@ impl<'c> Reader<'c, '_> {
         if let Some(position) = self.context.position(named, text) {
             return Ok(position);
         }
+        if self.context.is_told(&node.span, path) {
+            return Err(self.context.wrong(&node.span, path, ""));
+        }
         let (message, hint) = if named == Named::Body && text == "ground" {
             ("the ground does not move, so nothing can load it".to_string(), "name a body".to_string())
         } else {

@@ -56,14 +56,24 @@ pub(super) fn braces(text: &str) -> Option<Range<usize>> {
 
 /// May the name have been made of a template's name?
 pub(crate) fn stands_for(template: &str, name: &str) -> bool {
-    let Some(range) = braces(template) else { return template == name };
-    let Some(mut rest) = name.strip_prefix(&template[..range.start]) else { return false };
-    let behind = &template[range.end..];
-    if let Some(positive) = rest.strip_prefix('-') {
-        rest = positive;
+    // How much of the name may have been made of what lies behind in the template.
+    let mut made = vec![0];
+    let mut rest = template;
+    while let Some(range) = braces(rest) {
+        let mut further = Vec::new();
+        for end in made {
+            let Some(behind) = name[end..].strip_prefix(&rest[..range.start]) else { continue };
+            let number = behind.strip_prefix('-').unwrap_or(behind);
+            let digits = number.bytes().take_while(u8::is_ascii_digit).count();
+            let start = name.len() - number.len();
+            further.extend(start + 1..=start + digits);
+        }
+        further.sort_unstable();
+        further.dedup();
+        made = further;
+        rest = &rest[range.end..];
     }
-    let digits = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
-    (1..=digits).rev().any(|count| stands_for(behind, &rest[count..]))
+    made.iter().any(|end| &name[*end..] == rest)
 }
 
 /// Understands a text of a template.
@@ -150,4 +160,26 @@ fn formula(
         return Err(complain(error.with_hint("write the unit behind the braces: `{i}*10 mm`")));
     }
     Ok(lowered.formula())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::stands_for;
+
+    #[test]
+    fn names_are_traced_to_their_template() {
+        for (template, name, expected) in [
+            ("n_{i}_{j}", "n_3_14", true),
+            ("n_{i}_{j}", "n_3_-14", true),
+            ("n_{i}_{j}", "n_3_", false),
+            ("n_{i}_{j}", "n_3_4x", false),
+            ("{i}{j}_end", "314_end", true),
+            ("{i}{j}_end", "3_end", false),
+            ("plain", "plain", true),
+            ("ü{i}é", "ü7é", true),
+        ] {
+            assert_eq!(stands_for(template, name), expected, "{template} {name}");
+        }
+        assert!(!stands_for(&"{i}".repeat(60), &format!("{}x", "1".repeat(190))));
+    }
 }
