@@ -162,9 +162,7 @@ impl Mechanism {
             residual[row + 1] = (last[1] - b[1]) / l;
             residual[row + 2] = if beam.start.hinged { q[2] } else { q[3] - a[2] };
             residual[row + 3] = if beam.end.hinged { last[3] / (unit * l) } else { last[2] - b[2] };
-            for (end, at, sign, moment) in
-                [(&beam.start, a, 1.0, first[3]), (&beam.end, b, -1.0, last[3])]
-            {
+            for (end, at, sign, moment) in [(&beam.start, a, 1.0, first[3]), (&beam.end, b, -1.0, last[3])] {
                 if let Some(body) = end.body {
                     let (u, v) = (at[0] - poses[body][0], at[1] - poses[body][1]);
                     sums[body][0] += sign * force[0];

@@ -53,6 +53,12 @@ conforms!(
     clamped_clamped,
     four_bar_balance,
     four_bar,
+    ends_cantilever,
+    ends_clamped,
+    ends_pinned,
+    ends_slide_fixed,
+    ends_slide_offset_pin,
+    deep_arch,
 );
 
 #[test]

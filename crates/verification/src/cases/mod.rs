@@ -3,7 +3,9 @@
 mod bend45;
 mod clamped_clamped;
 mod curves;
+mod deep_arch;
 mod elastica;
+mod ends;
 mod follower;
 mod four_bar;
 mod helix_wrench;
@@ -28,6 +30,8 @@ pub fn cases() -> Vec<Case> {
         &taper::CASES,
         &clamped_clamped::CASES,
         &four_bar::CASES,
+        &ends::CASES,
+        &deep_arch::CASES,
     ]
     .concat()
 }
