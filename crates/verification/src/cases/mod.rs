@@ -6,6 +6,8 @@ mod curves;
 mod deep_arch;
 mod elastica;
 mod ends;
+mod flexure_order;
+mod flexures;
 mod follower;
 mod four_bar;
 mod helix_wrench;
@@ -32,6 +34,8 @@ pub fn cases() -> Vec<Case> {
         &four_bar::CASES,
         &ends::CASES,
         &deep_arch::CASES,
+        &flexure_order::CASES,
+        &flexures::CASES,
     ]
     .concat()
 }
