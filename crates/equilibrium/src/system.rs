@@ -7,7 +7,7 @@ use crate::lower::{self, Lowered};
 use crate::mesh::{Level, SpanMesh};
 use crate::shooting::{Plain, SegmentEnd};
 use flexura_mechanics::joint::Configuration;
-use flexura_model::{BeamPoint, LoadId, LoadTarget, Model};
+use flexura_model::{BeamPoint, JointKind, LoadId, LoadTarget, Model};
 use flexura_nonlinear::{BLOCK, Breakdown, Chain, Matrix, System};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, exp, log};
 
@@ -427,8 +427,11 @@ impl System for Equilibrium {
             largest = largest.max(turn.norm());
         }
         for (coordinates, slot) in self.coordinate_slots() {
-            if coordinates.joint.freedoms() == 3 {
-                let turn: f64 = step[slot.unknown..slot.unknown + slot.count].iter().map(|s| s * s).sum();
+            // Of a ball and of a free joint the last three coordinates are a turning.
+            if matches!(coordinates.kind, JointKind::Spherical | JointKind::Free) && slot.count > 0 {
+                let last = slot.unknown + slot.count;
+                let turn: f64 =
+                    step[slot.unknown.max(last.saturating_sub(3))..last].iter().map(|s| s * s).sum();
                 largest = largest.max(turn.sqrt());
             }
         }

@@ -19,7 +19,8 @@ use flexura_nonlinear::System;
 use flexura_solution::Status;
 use nalgebra::{DMatrix, DVector};
 
-/// Size of the first correction beyond which a step of the targets is shortened.
+/// Turning (rad), or relative change of a parameter, in a first correction beyond which a step of the targets is
+/// shortened. Wrenches may jump: they follow the shape.
 const NEAR: f64 = 0.5;
 /// Contraction that a step must show, and that lets the old derivatives serve on.
 const CONTRACTING: f64 = 0.5;
@@ -256,9 +257,10 @@ impl Prepared {
         let sizes = self.parameter_sizes();
         let relative = change.iter().zip(&sizes).map(|(dp, size)| (dp / size).abs()).fold(0.0, f64::max);
         let size = self.problem.size(&step).max(relative);
-        if !size.is_finite() || size > nearest {
+        let reach = self.problem.turning(&step).max(relative);
+        if !size.is_finite() || reach > nearest {
             self.border = Some(border);
-            return Corrected::Failed(format!("a correction of {size:.1e} is needed"));
+            return Corrected::Failed(format!("a correction of {reach:.1e} is needed"));
         }
         let mut moved = Vec::with_capacity(values.len());
         for ((unknown, (parameter, value)), dp) in
