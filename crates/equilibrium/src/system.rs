@@ -28,6 +28,8 @@ pub struct Equilibrium {
     pub(crate) known_force: Vec<Vector3<f64>>,
     pub(crate) tangent: Matrix,
     pub(crate) chains: Vec<Chain>,
+    /// Is the tangent factorised, in the present layout?
+    pub(crate) factorised: bool,
     /// An earlier tangent, factorised.
     kept: (Matrix, Vec<Chain>),
     pub(crate) gaps: Vec<Vec<[f64; BLOCK]>>,
@@ -92,6 +94,7 @@ impl Equilibrium {
             known_force: Vec::new(),
             tangent: Matrix::default(),
             chains: Vec::new(),
+            factorised: false,
             kept: (Matrix::default(), Vec::new()),
             gaps: Vec::new(),
             r: Vec::new(),
@@ -347,8 +350,15 @@ impl System for Equilibrium {
 
     fn linearise(&mut self) -> Result<(), Breakdown> {
         self.counts.factorisations += 1;
+        self.factorised = false;
         self.evaluate(true)?;
-        self.tangent.factorise()
+        self.tangent.factorise()?;
+        self.factorised = true;
+        Ok(())
+    }
+
+    fn has_tangent(&self) -> bool {
+        self.factorised
     }
 
     fn orientation(&self) -> bool {

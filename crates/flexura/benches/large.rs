@@ -99,7 +99,7 @@ fn robot() {
         at(&mut model, lengths, k);
         forward.adopt(&model).expect("the same parts");
         forward.solve_from_here(TOLERANCE, &mut |_| {});
-        let plate = forward.problem().sampled(2, false).bodies[0].position;
+        let plate = forward.problem().sampled(2, false, |_| false).bodies[0].position;
         let wanted = [0.0, model.targets[1].value, model.targets[2].value];
         worst = wanted.iter().zip(plate.iter()).map(|(a, b)| (a - b).abs()).fold(worst, f64::max);
     }

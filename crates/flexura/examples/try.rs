@@ -1,41 +1,51 @@
 //! x
+use flexura::model::Curve;
 use std::time::Instant;
 fn main() {
     let file = std::env::args().nth(1).unwrap();
     let doc = flexura::modelfile::Document::read(&file).unwrap();
-    let t = Instant::now();
-    let model = doc.model(&[]).unwrap();
-    println!("model {:?}", t.elapsed());
-    let t = Instant::now();
-    for _ in 0..10 {
-        doc.model(&[]).unwrap();
-    }
-    println!("model x10 {:?}", t.elapsed());
-    let t = Instant::now();
+    let mut model = doc.model(&[]).unwrap();
     let mut p = flexura::Prepared::new(&model).unwrap();
-    println!("prepare {:?}", t.elapsed());
-    let t = Instant::now();
-    let o = p.solve(1e-6, &mut |_| {});
-    println!("solve {:?} {:?} {:?}", t.elapsed(), o.status, o.path);
-    println!("{:?}", p.problem().counts());
-    let t = Instant::now();
-    p.adopt(&model).unwrap();
-    println!("adopt {:?}", t.elapsed());
-    let t = Instant::now();
-    for _ in 0..10 {
-        p.problem().sampled(2, false);
+    p.solve(1e-6, &mut |_| {});
+    for _ in 0..3 {
+        let t = Instant::now();
+        for _ in 0..1000 {
+            let l = p.problem().neighbour(&model).unwrap();
+            std::hint::black_box(&l);
+        }
+        println!("neighbour {:?}", t.elapsed() / 1000);
+        let t = Instant::now();
+        for _ in 0..1000 {
+            std::hint::black_box(model.clone());
+        }
+        println!("clone {:?}", t.elapsed() / 1000);
+        let t = Instant::now();
+        for _ in 0..1000 {
+            p.linearise().unwrap();
+        }
+        println!("linearise {:?}", t.elapsed() / 1000);
+        let t = Instant::now();
+        for _ in 0..1000 {
+            p.problem().residual_size();
+        }
+        println!("residual {:?}", t.elapsed() / 1000);
+        let c0 = p.problem().counts();
+        let t = Instant::now();
+        for i in 0..1000 {
+            for b in 0..6 {
+                model.beams[b].curve =
+                    Curve::Straight { length: 0.5 + 0.001 * ((i % 2) as f64) * (1.0 + 0.1 * b as f64) };
+            }
+            p.adopt(&model).unwrap();
+            p.solve_from_here(1e-6, &mut |_| {});
+        }
+        println!("step {:?}", t.elapsed() / 1000);
+        println!(
+            "{:?} {:?} {} {}",
+            c0,
+            p.problem().counts(),
+            p.problem().integration_steps(),
+            p.problem().segments()
+        );
     }
-    println!("sampled x10 {:?}", t.elapsed());
-    use flexura::Equilibrium;
-    let _: &mut Equilibrium = p.problem();
-    let t = Instant::now();
-    for _ in 0..10 {
-        p.linearise().unwrap();
-    }
-    println!("linearise x10 {:?}", t.elapsed());
-    let mut family = flexura::FileFamily::new(&doc, &[], &model);
-    let t = Instant::now();
-    let o = p.solve_inverse_from_here(&mut family, 1e-6);
-    println!("inverse {:?} {:?} {:?}", t.elapsed(), o.status, o.path);
-    println!("{:?}", p.problem().counts());
 }

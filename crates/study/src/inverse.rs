@@ -13,6 +13,7 @@
 
 use crate::family::{Family, size_of};
 use crate::sensitivity::SensitivityError;
+use crate::solve::What;
 use crate::{Outcome, Prepared, Progress};
 use flexura_equilibrium::ProblemError;
 use flexura_nonlinear::System;
@@ -182,7 +183,6 @@ impl Prepared {
             if last.status != Status::Converged {
                 return last;
             }
-            self.border = None;
             match self.approach(family, wanted, tolerance) {
                 // On the mesh that has proved its accuracy, the answer moved by less than the accuracy.
                 Corrected::By(moved) if moved <= 10.0 * tolerance => return last,
@@ -200,7 +200,13 @@ impl Prepared {
         let mut first = None;
         let mut before = f64::INFINITY;
         for _ in 0..30 {
-            let fresh = self.border.is_none();
+            // A mesh of other segments has other unknowns.
+            let n = self.problem.unknowns();
+            let fits = self.border.as_ref().is_some_and(|b| b.along.iter().all(|v| v.len() == n));
+            let fresh = !(fits && self.problem.has_tangent());
+            if fresh {
+                self.border = None;
+            }
             if fresh && let Err(end) = self.renew_border(family) {
                 return end;
             }
@@ -385,7 +391,7 @@ impl Prepared {
     }
 
     fn targets_here(&mut self) -> Result<Vec<f64>, SensitivityError> {
-        let solution = self.light_solution()?;
+        let solution = self.light_solution(What::Targets)?;
         Ok(flexura_post::targets(self.problem.model(), &solution)?)
     }
 
