@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{model, solution};
+use common::{model, rich, solution};
 use flexura_output::{beams_csv, model_vtp, shape_svg};
 use flexura_post::evaluate;
 use std::process::Command;
@@ -36,6 +36,14 @@ fn the_vtk_file_holds_one_line_a_beam() {
     for field in ["displacement", "force", "moment", "curvature", "director_e2", "director_e3", "stress"] {
         assert!(text.contains(&format!("Name=\"{field}\"")), "{field}");
     }
+}
+
+#[test]
+fn the_vtk_file_holds_cables_behind_the_beams() {
+    let (model, solution) = rich();
+    let text = model_vtp(&model, &solution, &evaluate(&model, &solution).unwrap());
+    assert!(text.contains("NumberOfPoints=\"50\"") && text.contains("NumberOfLines=\"4\""));
+    assert!(text.contains("Name=\"cable_names\" NumberOfTuples=\"2\"") && text.contains("Name=\"tension\""));
 }
 
 #[test]
@@ -75,5 +83,19 @@ fn the_picture_has_three_views_and_names_what_it_shows() {
     // FLEXURA_PICTURES keeps the picture for a look.
     if let Ok(folder) = std::env::var("FLEXURA_PICTURES") {
         std::fs::write(std::path::Path::new(&folder).join("arc.svg"), text).unwrap();
+    }
+}
+
+#[test]
+fn the_picture_shows_cables_and_every_kind_of_joint() {
+    let (model, solution) = rich();
+    let text = shape_svg(&model, &solution);
+    assert!(text.contains(">cable<"));
+    // Two cables in three views, and one line in the legend; three eyelets in three views, and one.
+    assert_eq!(text.matches("stroke=\"#7b3294\" stroke-width=\"1.2\"").count(), 7);
+    assert_eq!(text.matches("r=\"2.4\"").count(), 10);
+    assert!(!text.contains("NaN") && !text.contains("inf"));
+    if let Ok(folder) = std::env::var("FLEXURA_PICTURES") {
+        std::fs::write(std::path::Path::new(&folder).join("rich.svg"), text).unwrap();
     }
 }
