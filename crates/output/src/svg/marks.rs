@@ -78,7 +78,7 @@ pub fn joint(canvas: &mut Canvas, panel: &Panel, joint: &JointMark) {
     match (joint.kind, along) {
         (JointKind::Weld, _) => {}
         // It holds nothing, but what it measures and what springs it may carry is measured from here.
-        (JointKind::Free, _) => canvas.circle(at, 5.0, "none", &Style::line(FAINT, 1.1).dashed("2 3")),
+        (JointKind::Free, _) => canvas.circle(at, 9.0, "none", &Style::line(FAINT, 1.1).dashed("2 3")),
         (JointKind::Prismatic, Some(u)) => rails(canvas, at, u, 6.0, joint.is_grounded),
         (JointKind::Cylindrical, Some(u)) => {
             rails(canvas, at, u, 6.0, joint.is_grounded);
@@ -153,13 +153,27 @@ pub fn eyelet(canvas: &mut Canvas, at: [f64; 2]) {
     canvas.circle(at, 2.4, "#ffffff", &Style::line(CABLE, 1.0));
 }
 
-/// A body's origin: hollow where it was, filled where it is, with its name.
-pub fn body(canvas: &mut Canvas, panel: &Panel, body: &BodyMark, labels: &mut Vec<[f64; 2]>) {
+/// A body's origin: hollow where it was, filled where it is, with its name. Where a joint's own mark sits, that is
+/// left to be seen.
+pub fn body(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    body: &BodyMark,
+    joints: &[JointMark],
+    labels: &mut Vec<[f64; 2]>,
+) {
     let (before, now) = (panel.point(&body.initial), panel.point(&body.deformed));
     if (before[0] - now[0]).hypot(before[1] - now[1]) > 2.0 {
         diamond(canvas, before, false);
     }
-    diamond(canvas, now, true);
+    let is_covered = joints.iter().any(|joint| {
+        let at = panel.point(&joint.point);
+        !matches!(joint.kind, JointKind::Weld | JointKind::Free | JointKind::Prismatic)
+            && (at[0] - now[0]).hypot(at[1] - now[1]) < 4.0
+    });
+    if !is_covered {
+        diamond(canvas, now, true);
+    }
     let width = 6.2 * body.name.chars().count() as f64;
     let is_near_the_edge = now[0] + 9.0 + width > panel.frame[0] + panel.frame[2];
     let (anchor, x) = if is_near_the_edge { ("end", now[0] - 6.0) } else { ("start", now[0] + 6.0) };

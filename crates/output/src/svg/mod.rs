@@ -131,7 +131,7 @@ fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
     }
     let mut labels: Vec<[f64; 2]> = Vec::new();
     for body in &scene.bodies {
-        marks::body(canvas, panel, body, &mut labels);
+        marks::body(canvas, panel, body, &scene.joints, &mut labels);
     }
 }
 
