@@ -54,16 +54,21 @@ pub fn dependences(model: &Model, solution: &Solution, evaluation: &Evaluation) 
     list
 }
 
-/// The unit of a quotient, cancelled where its parts are known: N·m over m is N.
+/// The unit of a quotient, cancelled where that makes it shorter: N·m over m is N, but m over N stays.
 fn quotient(over: &str, under: &str) -> String {
-    // A unit binds only to a number, hence the ones; a plain one would leave no trace of its dimension.
+    let plain = match (over, under) {
+        (_, "") => return over.to_owned(),
+        ("", _) => "1",
+        _ => over,
+    };
+    let written =
+        if under.contains(['*', '/']) { format!("{plain}/({under})") } else { format!("{plain}/{under}") };
+    // A unit binds only to a number, hence the ones.
     let one = |unit: &str| if unit.is_empty() { "1".to_owned() } else { format!("(1 {unit})") };
     let parsed = Expression::parse(&format!("{} / {}", one(over), one(under)));
     let known = parsed.and_then(|expression| expression.evaluate(&mut |_| Ok(Quantity::plain(1.0))));
-    match known {
-        Ok(quantity) => quantity.kind.dimension().unit(),
-        Err(_) => format!("{over}/({under})"),
-    }
+    let cancelled = known.map(|quantity| quantity.kind.dimension().unit());
+    cancelled.ok().filter(|unit| unit.len() < written.len()).unwrap_or(written)
 }
 
 #[cfg(test)]
@@ -71,20 +76,20 @@ mod tests {
     use super::quotient;
 
     #[test]
-    fn units_of_quotients_are_cancelled() {
+    fn units_of_quotients_are_cancelled_where_that_is_shorter() {
         let cases = [
             ("m", "N", "m/N"),
             ("N*m", "m", "N"),
             ("m", "m", ""),
             ("", "N", "1/N"),
             ("rad", "", "rad"),
-            ("Pa", "", "Pa"),
+            ("rad", "N", "rad/N"),
+            ("Pa", "m", "Pa/m"),
+            ("m", "N*m", "m/(N*m)"),
+            ("rad", "N*m/rad", "rad/(N*m/rad)"),
         ];
         for (over, under, unit) in cases {
-            let found = quotient(over, under);
-            let same = |text: &str| quotient(text, "");
-            assert!(found == unit || found == same(unit), "{over} / {under}: {found}");
+            assert_eq!(quotient(over, under), unit, "{over} / {under}");
         }
-        assert_eq!(quotient("N", "m"), "N/m");
     }
 }
