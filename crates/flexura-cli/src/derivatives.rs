@@ -61,7 +61,7 @@ fn parameter(model: &Model, name: &str) -> f64 {
 
 fn cell(dependence: &Dependence, component: usize, value: f64, unit: &str, scales: &Scales) -> String {
     let slope = dependence.derivative[component];
-    if scales.hides(slope * value, unit) && value != 0.0 {
+    if slope == 0.0 || (value != 0.0 && scales.hides(slope * value, unit)) {
         return "0".to_owned();
     }
     let slope = quantity(slope, &dependence.unit, 5);

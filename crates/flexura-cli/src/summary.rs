@@ -206,3 +206,39 @@ fn cables(summary: &Summary) -> Table {
     }
     table
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexura::model::{Cable, CableLaw, Coupling};
+    use flexura::modelfile::Document;
+    use flexura::post::{evaluate, summarise};
+    use flexura::solution::CableSolution;
+
+    const ELASTICA: &str = include_str!("../../../models/elastica.toml");
+
+    #[test]
+    fn what_was_found_stands_before_everything_else() {
+        let mut model = Document::parse(ELASTICA, "elastica.toml").and_then(|file| file.model(&[])).unwrap();
+        let mut solution = flexura::solve(&model, &flexura::Options::default(), &mut |_| {}).unwrap();
+        let text = |model: &_, solution: &_| {
+            render(&summarise(model, solution, &evaluate(model, solution).unwrap()))
+        };
+        let plain = text(&model, &solution);
+        assert!(!plain.contains("found") && !plain.contains("cables") && !plain.contains("couplings"));
+
+        solution.found = vec![(0, 3.2)];
+        model.cables.push(Cable { name: "tendon".into(), route: Vec::new(), law: CableLaw::Tension(3.0) });
+        solution.cables.push(CableSolution { course: Vec::new(), length: 0.25, tension: 3.0 });
+        model.couplings.push(Coupling { name: "gear".into(), terms: Vec::new(), offset: 0.0 });
+        solution.couplings.push(0.5);
+        let full = text(&model, &solution);
+        let found = full.find("force = 3.2 N").unwrap();
+        assert!(full.contains("found:") && found < full.find("outputs").unwrap(), "{full}");
+        for words in ["tendon  250 mm  3 N", "gear", "effort per factor"] {
+            assert!(full.contains(words), "{words}: {full}");
+        }
+        solution.status = Status::Stalled;
+        assert!(text(&model, &solution).contains("tried last:"));
+    }
+}

@@ -63,8 +63,20 @@ impl Axis {
                         let count = count.trim();
                         format!("`{count}` is no number of values for `{name}`: a whole number from 2 on is wanted")
                     })?;
-                let step = |i: usize| i as f64 / (count - 1) as f64;
-                (0..count).map(|i| from * (1.0 - step(i)) + to * step(i)).collect()
+                // Both ends are met exactly.
+                let last = (count - 1) as f64;
+                let between = |i: usize| (from * (last - i as f64) + to * i as f64) / last;
+                (0..count)
+                    .map(|i| {
+                        if i == 0 {
+                            from
+                        } else if i + 1 == count {
+                            to
+                        } else {
+                            between(i)
+                        }
+                    })
+                    .collect()
             }
             _ => {
                 return Err(format!(
@@ -301,4 +313,43 @@ impl<'a> Sweep<'a> {
 
 fn told(path: &str, message: &str) -> String {
     if path.is_empty() { message.to_owned() } else { format!("{path}: {message}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Parameter;
+
+    fn axis(text: &str) -> Result<Vec<f64>, String> {
+        let parameter =
+            |name: &str, unit: &str| Parameter { name: name.into(), value: 1.0, unit: unit.into() };
+        let parameters = vec![parameter("push", "N"), parameter("turns", ""), parameter("slope", "rad")];
+        Axis::parse(&Model { parameters, ..Model::default() }, text).map(|axis| axis.values)
+    }
+
+    #[test]
+    fn ranges_meet_both_ends_and_lists_keep_their_order() {
+        assert_eq!(axis("push=0.1:0.3:3").unwrap(), [0.1, 0.2, 0.3]);
+        assert_eq!(axis(" push = 1 kN : -1 kN : 2 ").unwrap(), [1000.0, -1000.0]);
+        assert_eq!(axis("push=3,min(1 N, 2 N),2 N").unwrap(), [3.0, 1.0, 2.0]);
+        assert_eq!(axis("turns=1:5:5").unwrap(), [1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert!((axis("slope=90 deg").unwrap()[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_is_no_range_is_refused() {
+        for text in [
+            "push",
+            "pull=1",
+            "push=1:2",
+            "push=1:2:1",
+            "push=1:2:2.5",
+            "push=1 m",
+            "push=",
+            "push=a",
+            "push=1,,2",
+        ] {
+            assert!(axis(text).is_err(), "{text}");
+        }
+    }
 }

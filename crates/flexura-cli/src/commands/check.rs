@@ -142,3 +142,40 @@ impl<'a> CheckDocument<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexura::model::{Output, Target, Unknown};
+
+    const ELASTICA: &str = include_str!("../../../../models/elastica.toml");
+
+    fn elastica() -> Model {
+        Document::parse(ELASTICA, "elastica.toml").and_then(|file| file.model(&[])).unwrap()
+    }
+
+    #[test]
+    fn an_inverse_problem_tells_what_is_looked_for() {
+        let mut model = elastica();
+        assert_eq!(inverse(&model), "");
+        let census = flexura::check(&model).unwrap();
+        let text = to_json(&CheckDocument::new(&model, &census)).unwrap();
+        assert!(!text.contains("guesses") && !text.contains("targets"));
+
+        model.unknowns.push(Unknown { parameter: 0, range: Some([0.0, 50.0]) });
+        let output = Output { name: "beam.rod.end.position.y".into(), ..model.outputs[0].clone() };
+        model.targets.push(Target { output, value: 0.5 });
+        let text = render(&model, &census);
+        for words in [
+            "1 parameter to be found from 1 target",
+            "force",
+            "0 N to 50 N",
+            "beam.rod.end.position.y",
+            "500 mm",
+        ] {
+            assert!(text.contains(words), "{words}: {text}");
+        }
+        let text = to_json(&CheckDocument::new(&model, &census)).unwrap();
+        assert!(text.contains("\"guesses\": {\n    \"force\": 10.0"), "{text}");
+    }
+}
