@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[command(
     name = "flexura",
     version,
-    after_help = "Start with:\n  flexura examples                        the bundled models\n  flexura examples cantilever_strip       write one of them here\n  flexura solve cantilever_strip.toml     solve it\n  flexura sweep cantilever_strip.toml --vary payload=\"0 g:50 g:11\"   solve it with eleven weights\n\nExit codes: 0 converged, 1 not converged, 2 wrong input, 3 the machine failed."
+    after_help = "Start with:\n  flexura examples                        the bundled models\n  flexura examples cantilever_strip       write one of them here\n  flexura solve cantilever_strip.toml     solve it\n  flexura sweep cantilever_strip.toml --vary payload=\"10 g:50 g:5\"\n\nExit codes: 0 converged, 1 not converged, 2 wrong input, 3 the machine failed."
 )]
 pub struct Arguments {
     #[command(subcommand)]
