@@ -13,7 +13,7 @@ use flexura_spatial::Vector3;
 /// Point data: `s`, `displacement`, `force`, `moment`, `curvature`, `stretch`, `director_e1`,
 /// `director_e2`, `director_e3`, `strain`, `stress` (the last two NaN for a section given as a stiffness, all of them on
 /// cables). Cell data: `beam` and `cable`, the position in the model's list or -1, and `tension`, NaN for a beam.
-/// Field data: `beam_names`, `cable_names`.
+/// Field data: `beam_names`, and `cable_names` where there are cables.
 pub fn model_vtp(model: &Model, solution: &Solution, evaluation: &Evaluation) -> String {
     let samples: Vec<&BeamSample> = solution.beams.iter().flat_map(|beam| &beam.samples).collect();
     let course: Vec<Vector3<f64>> = solution.cables.iter().flat_map(|cable| &cable.course).copied().collect();
@@ -55,7 +55,9 @@ pub fn model_vtp(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
         "<PolyData>\n<FieldData>\n",
     ));
     text += &names("beam_names", model.beams.iter().map(|beam| beam.name.as_str()));
-    text += &names("cable_names", model.cables.iter().map(|cable| cable.name.as_str()));
+    if !model.cables.is_empty() {
+        text += &names("cable_names", model.cables.iter().map(|cable| cable.name.as_str()));
+    }
     text += &format!(
         "</FieldData>\n<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n",
         lines.len()

@@ -66,8 +66,25 @@ assert list(mesh.field_data["beam_names"]) == ["strip", 'wire <"b">'], list(mesh
 assert abs(mesh["strain"][3] - 3e-3) < 1e-12 and math.isnan(mesh["stress"][25])
 assert abs(mesh.compute_arc_length()["arc_length"].max() - 0.2) < 1e-3
 "#;
-    let output = Command::new(python).args(["-c", script]).arg(&path).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let run = |script: &str, path: &std::path::Path| {
+        let output = Command::new(&python).args(["-c", script]).arg(path).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    };
+    run(script, &path);
+
+    let (model, solution) = rich();
+    let path = path.with_file_name("rich.vtp");
+    std::fs::write(&path, model_vtp(&model, &solution, &evaluate(&model, &solution).unwrap())).unwrap();
+    let script = r#"
+import sys, math, pyvista
+mesh = pyvista.read(sys.argv[1])
+assert mesh.n_points == 50 and mesh.n_lines == 4, mesh
+assert list(mesh.cell_data["cable"]) == [-1, -1, 0, 1] and list(mesh.cell_data["beam"]) == [0, 1, -1, -1]
+assert list(mesh.cell_data["tension"])[2:] == [3.0, 1.5] and math.isnan(mesh.cell_data["tension"][0])
+assert list(mesh.field_data["cable_names"]) == ["puller", "bowden"]
+assert list(mesh.points[27]) == [0.1, 0.0, 0.06] and math.isnan(mesh["stress"][27])
+"#;
+    run(script, &path);
 }
 
 #[test]
