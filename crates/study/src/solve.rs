@@ -50,8 +50,8 @@ pub struct Prepared {
 /// What a light solution is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum What {
-    Outputs,
     Targets,
+    Both,
 }
 
 /// What a solve came to, before anything is sampled.
@@ -131,8 +131,10 @@ impl Prepared {
     pub(crate) fn light_solution(&mut self, what: What) -> Result<Solution, Breakdown> {
         let model = self.problem.model();
         let outputs: Vec<&Output> = match what {
-            What::Outputs => model.outputs.iter().collect(),
             What::Targets => model.targets.iter().map(|target| &target.output).collect(),
+            What::Both => {
+                model.outputs.iter().chain(model.targets.iter().map(|target| &target.output)).collect()
+            }
         };
         let probes = || outputs.iter().flat_map(|output| &output.probes);
         let energies = probes().any(|probe| probe.quantity == Quantity::Energy);
