@@ -59,6 +59,7 @@ conforms!(
     ends_slide_fixed,
     ends_slide_offset_pin,
     deep_arch,
+    right_angle_frame,
     parallelogram_small,
     cross_spring_small,
     leaf_four_bar_small,
@@ -69,6 +70,13 @@ conforms!(
     leaf_four_bar_far,
     cartwheel_far,
     bistable_far,
+    couplings,
+    universal_joint,
+    rigid_four_bar,
+    bushings,
+    string_polygon,
+    hinged_beams,
+    limits_and_rests,
 );
 
 #[test]

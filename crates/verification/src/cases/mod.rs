@@ -10,7 +10,9 @@ mod flexure_order;
 mod flexures;
 mod follower;
 mod four_bar;
+mod frame;
 mod helix_wrench;
+mod joints;
 mod roll_up;
 mod spring;
 mod strip;
@@ -34,8 +36,10 @@ pub fn cases() -> Vec<Case> {
         &four_bar::CASES,
         &ends::CASES,
         &deep_arch::CASES,
+        &frame::CASES,
         &flexure_order::CASES,
         &flexures::CASES,
+        &joints::CASES,
     ]
     .concat()
 }
