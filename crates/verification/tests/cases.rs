@@ -53,6 +53,22 @@ conforms!(
     clamped_clamped,
     four_bar_balance,
     four_bar,
+    ends_cantilever,
+    ends_clamped,
+    ends_pinned,
+    ends_slide_fixed,
+    ends_slide_offset_pin,
+    deep_arch,
+    parallelogram_small,
+    cross_spring_small,
+    leaf_four_bar_small,
+    cartwheel_small,
+    bistable_small,
+    parallelogram_far,
+    cross_spring_far,
+    leaf_four_bar_far,
+    cartwheel_far,
+    bistable_far,
 );
 
 #[test]

@@ -3,7 +3,11 @@
 mod bend45;
 mod clamped_clamped;
 mod curves;
+mod deep_arch;
 mod elastica;
+mod ends;
+mod flexure_order;
+mod flexures;
 mod follower;
 mod four_bar;
 mod helix_wrench;
@@ -28,6 +32,10 @@ pub fn cases() -> Vec<Case> {
         &taper::CASES,
         &clamped_clamped::CASES,
         &four_bar::CASES,
+        &ends::CASES,
+        &deep_arch::CASES,
+        &flexure_order::CASES,
+        &flexures::CASES,
     ]
     .concat()
 }
