@@ -53,6 +53,7 @@ conforms!(
     clamped_clamped,
     four_bar_balance,
     four_bar,
+    six_rod_robot,
     ends_cantilever,
     ends_clamped,
     ends_pinned,

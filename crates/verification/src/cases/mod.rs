@@ -11,6 +11,7 @@ mod flexures;
 mod follower;
 mod four_bar;
 mod helix_wrench;
+mod robot;
 mod roll_up;
 mod spring;
 mod strip;
@@ -32,6 +33,7 @@ pub fn cases() -> Vec<Case> {
         &taper::CASES,
         &clamped_clamped::CASES,
         &four_bar::CASES,
+        &robot::CASES,
         &ends::CASES,
         &deep_arch::CASES,
         &flexure_order::CASES,
