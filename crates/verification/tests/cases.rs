@@ -53,6 +53,9 @@ conforms!(
     clamped_clamped,
     four_bar_balance,
     four_bar,
+    tendon_arc,
+    tendon_helix,
+    tendon_robot,
 );
 
 #[test]

@@ -11,6 +11,7 @@ mod roll_up;
 mod spring;
 mod strip;
 mod taper;
+mod tendons;
 
 use crate::Case;
 
@@ -28,6 +29,7 @@ pub fn cases() -> Vec<Case> {
         &taper::CASES,
         &clamped_clamped::CASES,
         &four_bar::CASES,
+        &tendons::CASES,
     ]
     .concat()
 }
