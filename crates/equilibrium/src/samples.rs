@@ -21,7 +21,8 @@ impl Equilibrium {
         for (index, rope) in self.lowered.ropes.iter().enumerate() {
             let mut course: Vec<Vector3<f64>> = Vec::new();
             let mut add = |point: Vector3<f64>| {
-                if course.last() != Some(&point) {
+                // Where a line meets a channel both give the same point, but for round-off.
+                if course.last().is_none_or(|last| (last - point).norm() > 1e-9 * scale.length) {
                     course.push(point);
                 }
             };
