@@ -13,17 +13,23 @@ impl Equilibrium {
     /// Reads the present state off. `samples` places along each beam, ends included, besides those that
     /// outputs ask for and those where something jumps.
     pub fn solution(&mut self, samples: usize) -> Solution {
-        self.sampled(samples, true)
+        let residual = self.residual_size();
+        Solution { residual, ..self.sampled(samples, true, |_| true) }
     }
 
-    /// The same; the beams' strain energy, which takes an integration of its own, is left out unless asked for.
-    pub fn sampled(&mut self, samples: usize, energies: bool) -> Solution {
+    /// The same without what was not asked for: only some beams have samples, and the strain energy, which takes an
+    /// integration of its own, may be left out. The residual is not evaluated.
+    pub fn sampled(&mut self, samples: usize, energies: bool, wanted: impl Fn(usize) -> bool) -> Solution {
         let scale = self.lowered.scale;
-        let residual = self.residual_size();
         self.least_norm();
         let mut energy = 0.0;
         let mut beams = Vec::with_capacity(self.model.beams.len());
         for beam in 0..self.model.beams.len() {
+            if !energies && !wanted(beam) {
+                let length = self.lowered.beams[beam].length;
+                beams.push(BeamSolution { samples: Vec::new(), length });
+                continue;
+            }
             let (solution, strain_energy) = self.sample_beam(beam, samples.max(2), energies);
             energy += strain_energy;
             beams.push(solution);
@@ -82,7 +88,7 @@ impl Equilibrium {
             status: Status::Converged,
             reason: None,
             load_fraction: self.load,
-            residual,
+            residual: f64::NAN,
             error_estimate: 0.0,
             warnings,
             work: Work {

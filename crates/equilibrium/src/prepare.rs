@@ -109,6 +109,7 @@ impl Equilibrium {
         self.chains = vec![Chain::default(); self.meshes.len()];
         self.gaps = self.meshes.iter().map(|m| vec![[0.0; BLOCK]; m.segments.len() - 1]).collect();
         self.r = vec![0.0; self.layout.interface];
+        self.factorised = false;
         let blocks = self.layout.blocks(&self.lowered);
         self.tangent.arrange(self.layout.interface, &blocks);
         self.set_weights(false);

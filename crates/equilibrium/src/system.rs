@@ -7,7 +7,7 @@ use crate::lower::{self, Lowered};
 use crate::mesh::{Level, SpanMesh};
 use crate::shooting::{Plain, SegmentEnd};
 use flexura_mechanics::joint::Configuration;
-use flexura_model::{BeamPoint, LoadId, LoadTarget, Model};
+use flexura_model::{BeamPoint, JointKind, LoadId, LoadTarget, Model};
 use flexura_nonlinear::{BLOCK, Breakdown, Chain, Matrix, System};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, exp, log};
 
@@ -28,6 +28,8 @@ pub struct Equilibrium {
     pub(crate) known_force: Vec<Vector3<f64>>,
     pub(crate) tangent: Matrix,
     pub(crate) chains: Vec<Chain>,
+    /// Is the tangent factorised, in the present layout?
+    pub(crate) factorised: bool,
     /// An earlier tangent, factorised.
     kept: (Matrix, Vec<Chain>),
     pub(crate) gaps: Vec<Vec<[f64; BLOCK]>>,
@@ -92,6 +94,7 @@ impl Equilibrium {
             known_force: Vec::new(),
             tangent: Matrix::default(),
             chains: Vec::new(),
+            factorised: false,
             kept: (Matrix::default(), Vec::new()),
             gaps: Vec::new(),
             r: Vec::new(),
@@ -347,8 +350,15 @@ impl System for Equilibrium {
 
     fn linearise(&mut self) -> Result<(), Breakdown> {
         self.counts.factorisations += 1;
+        self.factorised = false;
         self.evaluate(true)?;
-        self.tangent.factorise()
+        self.tangent.factorise()?;
+        self.factorised = true;
+        Ok(())
+    }
+
+    fn has_tangent(&self) -> bool {
+        self.factorised
     }
 
     fn orientation(&self) -> bool {
@@ -427,8 +437,11 @@ impl System for Equilibrium {
             largest = largest.max(turn.norm());
         }
         for (coordinates, slot) in self.coordinate_slots() {
-            if coordinates.joint.freedoms() == 3 {
-                let turn: f64 = step[slot.unknown..slot.unknown + slot.count].iter().map(|s| s * s).sum();
+            // Of a ball and of a free joint the last three coordinates are a turning.
+            if matches!(coordinates.kind, JointKind::Spherical | JointKind::Free) && slot.count > 0 {
+                let last = slot.unknown + slot.count;
+                let turn: f64 =
+                    step[slot.unknown.max(last.saturating_sub(3))..last].iter().map(|s| s * s).sum();
                 largest = largest.max(turn.sqrt());
             }
         }

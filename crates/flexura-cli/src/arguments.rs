@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[command(
     name = "flexura",
     version,
-    after_help = "Start with:\n  flexura examples                        the bundled models\n  flexura examples cantilever_strip       write one of them here\n  flexura solve cantilever_strip.toml     solve it\n\nExit codes: 0 converged, 1 not converged, 2 wrong input, 3 the machine failed."
+    after_help = "Start with:\n  flexura examples                        the bundled models\n  flexura examples cantilever_strip       write one of them here\n  flexura solve cantilever_strip.toml     solve it\n  flexura sweep cantilever_strip.toml --vary payload=\"10 g:50 g:5\"\n\nExit codes: 0 converged, 1 not converged, 2 wrong input, 3 the machine failed."
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -20,6 +20,8 @@ pub struct Arguments {
 pub enum Command {
     /// Find the equilibrium and print outputs, stresses and poses
     Solve(SolveArguments),
+    /// Solve over a grid of parameters, on all cores, into one table
+    Sweep(SweepArguments),
     /// Say what a model is, unknowns against equations, without solving it
     Check(CheckArguments),
     /// List the bundled models, or write one of them here
@@ -53,6 +55,41 @@ pub struct SolveArguments {
     /// Write result.json, beams.csv, model.vtp and shape.svg into this folder
     #[arg(long, short = 'o', value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    /// Print how every output depends on every parameter: derivative, and per cent per per cent in brackets
+    #[arg(long)]
+    pub sensitivity: bool,
+    /// Print how a place moves under small loads there: body.NAME, beam.NAME.start, beam.NAME.end, "beam.NAME[0.5]",
+    /// "beam.NAME[30 mm]"; may be repeated
+    #[arg(long, value_name = "PLACE")]
+    pub compliance: Vec<String>,
+    /// Start from an earlier result (result.json) of the same beams, bodies and joints, in place of the rest state
+    #[arg(long, value_name = "FILE")]
+    pub from: Option<PathBuf>,
+    /// Look for other equilibria under the same load from this many random states
+    #[arg(long, value_name = "N")]
+    pub guesses: Option<usize>,
+    /// Seed of the random states; the same seed finds the same equilibria [default: 0]
+    #[arg(long, value_name = "S", requires = "guesses")]
+    pub seed: Option<u64>,
+}
+
+#[derive(Args)]
+pub struct SweepArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Vary a parameter: from, to and how many (push="0 N:10 N:11"), or a list (push="1 N,2 N,5 N"); repeated, every
+    /// combination is solved, the last one's values next to each other
+    #[arg(long, value_name = "P=A:B:N", required = true)]
+    pub vary: Vec<String>,
+    /// Write the table (CSV) into this file and not on standard output
+    #[arg(long, short = 'o', value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Solve so many samples at a time [default: as many as there are cores]
+    #[arg(long, value_name = "J", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
     /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,

@@ -5,6 +5,7 @@
 
 mod arguments;
 mod commands;
+mod derivatives;
 mod failure;
 mod progress;
 mod quantity;
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
     }));
     let result = match Arguments::parse().command {
         Command::Solve(arguments) => commands::solve::run(&arguments),
+        Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Examples(arguments) => commands::examples::run(&arguments),
         Command::Schema => commands::schema::run(),

@@ -1,4 +1,4 @@
-//! A bar on standard error while load stepping takes its time.
+//! Bars on standard error while load stepping or a sweep takes its time.
 
 use flexura::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -42,5 +42,29 @@ fn new_bar() -> ProgressBar {
     match ProgressStyle::with_template("{percent:>3} % of the load {bar:40} {msg}, {elapsed}") {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
+    }
+}
+
+/// Shows how many samples of a sweep are done; may be told by several threads at once.
+pub struct Counter {
+    bar: ProgressBar,
+}
+
+impl Counter {
+    pub fn new(is_quiet: bool, samples: usize) -> Self {
+        if is_quiet || !std::io::stderr().is_terminal() {
+            return Self { bar: ProgressBar::hidden() };
+        }
+        let bar = ProgressBar::with_draw_target(Some(samples as u64), ProgressDrawTarget::stderr());
+        let style = ProgressStyle::with_template("{pos} of {len} samples {bar:40} {elapsed}, {eta} to go");
+        Self { bar: style.map_or_else(|_| bar.clone(), |style| bar.clone().with_style(style)) }
+    }
+
+    pub fn count(&self) {
+        self.bar.inc(1);
+    }
+
+    pub fn finish(self) {
+        self.bar.finish_and_clear();
     }
 }

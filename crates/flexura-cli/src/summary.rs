@@ -1,15 +1,26 @@
 //! What a person reads after a solve.
 
 use crate::quantity::{number, quantity, rotation, size, strain, vector};
-use crate::screen::{BAD, DIM, GOOD, styled};
+use crate::screen::{BAD, BOLD, DIM, GOOD, styled};
 use crate::table::Table;
-use flexura::post::{BeamPeaks, BeamSummary, CoordinateSummary, OutputResult, OutputValue, Peak, Summary};
+use flexura::post::{
+    BeamPeaks, BeamSummary, CoordinateSummary, OutputResult, OutputValue, Peak, Scales, Summary,
+};
 use flexura::solution::Status;
 
 /// The summary as text.
 pub fn render(summary: &Summary) -> String {
     let mut text = headline(summary);
-    let sections = [outputs(summary), beams(summary), bodies(summary), joints(summary), springs(summary)];
+    text += &found(summary);
+    let sections = [
+        outputs(summary),
+        beams(summary),
+        bodies(summary),
+        joints(summary),
+        couplings(summary),
+        springs(summary),
+        cables(summary),
+    ];
     for section in sections.into_iter().filter(|section| !section.is_empty()) {
         text.push('\n');
         text += &section.render();
@@ -54,33 +65,39 @@ fn headline(summary: &Summary) -> String {
     text
 }
 
+/// What an inverse problem was solved for: "found: push = 3.2 N".
+fn found(summary: &Summary) -> String {
+    if summary.found.is_empty() {
+        return String::new();
+    }
+    let word = if summary.status == Status::Converged { "found" } else { "tried last" };
+    let values = summary.found.iter();
+    let list: Vec<String> =
+        values.map(|(name, value, unit)| format!("{name} = {}", quantity(*value, unit, 6))).collect();
+    format!("\n{} {}\n", styled(BOLD, &format!("{word}:")), list.join(", "))
+}
+
 fn outputs(summary: &Summary) -> Table {
     let mut table = Table::new(&["outputs"]);
     for output in &summary.outputs {
-        table.row(vec![output.name.clone(), output_value(output, summary)]);
+        table.row(vec![output.name.clone(), output_value(output, &summary.scales)]);
     }
     table
 }
 
-fn output_value(output: &OutputResult, summary: &Summary) -> String {
+/// An output's value as a person reads it.
+pub fn output_value(output: &OutputResult, scales: &Scales) -> String {
+    let quiet = |value: f64| if scales.hides(value, &output.unit) { 0.0 } else { value };
     match output.value {
         OutputValue::Number(value) if output.is_strain => strain(value, 6),
-        OutputValue::Number(value) => quantity(quiet(value, &output.unit, summary), &output.unit, 6),
-        OutputValue::Vector(values) => {
-            vector(values.map(|value| quiet(value, &output.unit, summary)), &output.unit, 6)
-        }
+        OutputValue::Number(value) => quantity(quiet(value), &output.unit, 6),
+        OutputValue::Vector(values) => vector(values.map(quiet), &output.unit, 6),
     }
 }
 
 /// The value, or zero where it is nothing but rounding noise beside the other values of its kind.
 fn quiet(value: f64, unit: &str, summary: &Summary) -> f64 {
-    let scale = match unit {
-        "m" => summary.scales.length,
-        "N" => summary.scales.force,
-        "N*m" => summary.scales.moment,
-        _ => 0.0,
-    };
-    if value.abs() < 1e-12 * scale { 0.0 } else { value }
+    if summary.scales.hides(value, unit) { 0.0 } else { value }
 }
 
 fn beams(summary: &Summary) -> Table {
@@ -149,7 +166,11 @@ fn joints(summary: &Summary) -> Table {
     let mut table = Table::new(&["joints", "coordinate", "effort", "force", "moment"]);
     for joint in &summary.joints {
         let values = |pick: &dyn Fn(&CoordinateSummary) -> String| {
-            joint.coordinates.iter().map(pick).collect::<Vec<_>>().join("; ")
+            let named = joint.coordinates.iter().map(|coordinate| match coordinate.name {
+                "" => pick(coordinate),
+                name => format!("{name} {}", pick(coordinate)),
+            });
+            named.collect::<Vec<_>>().join("; ")
         };
         table.row(vec![
             joint.name.clone(),
@@ -168,4 +189,56 @@ fn springs(summary: &Summary) -> Table {
         table.row(vec![name.clone(), quantity(*length, "m", 5), quantity(*tension, "N", 5)]);
     }
     table
+}
+
+fn couplings(summary: &Summary) -> Table {
+    let mut table = Table::new(&["couplings", "effort per factor (SI)"]);
+    for (name, multiplier) in &summary.couplings {
+        table.row(vec![name.clone(), number(*multiplier, 5)]);
+    }
+    table
+}
+
+fn cables(summary: &Summary) -> Table {
+    let mut table = Table::new(&["cables", "length", "tension"]);
+    for (name, length, tension) in &summary.cables {
+        table.row(vec![name.clone(), quantity(*length, "m", 5), quantity(*tension, "N", 5)]);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexura::model::{Cable, CableLaw, Coupling};
+    use flexura::modelfile::Document;
+    use flexura::post::{evaluate, summarise};
+    use flexura::solution::CableSolution;
+
+    const ELASTICA: &str = include_str!("../../../models/elastica.toml");
+
+    #[test]
+    fn what_was_found_stands_before_everything_else() {
+        let mut model = Document::parse(ELASTICA, "elastica.toml").and_then(|file| file.model(&[])).unwrap();
+        let mut solution = flexura::solve(&model, &flexura::Options::default(), &mut |_| {}).unwrap();
+        let text = |model: &_, solution: &_| {
+            render(&summarise(model, solution, &evaluate(model, solution).unwrap()))
+        };
+        let plain = text(&model, &solution);
+        assert!(!plain.contains("found") && !plain.contains("cables") && !plain.contains("couplings"));
+
+        solution.found = vec![(0, 3.2)];
+        model.cables.push(Cable { name: "tendon".into(), route: Vec::new(), law: CableLaw::Tension(3.0) });
+        solution.cables.push(CableSolution { course: Vec::new(), length: 0.25, tension: 3.0 });
+        model.couplings.push(Coupling { name: "gear".into(), terms: Vec::new(), offset: 0.0 });
+        solution.couplings.push(0.5);
+        let full = text(&model, &solution);
+        let found = full.find("force = 3.2 N").unwrap();
+        assert!(full.contains("found:") && found < full.find("outputs").unwrap(), "{full}");
+        for words in ["tendon  250 mm  3 N", "gear", "effort per factor"] {
+            assert!(full.contains(words), "{words}: {full}");
+        }
+        solution.status = Status::Stalled;
+        assert!(text(&model, &solution).contains("tried last:"));
+    }
 }

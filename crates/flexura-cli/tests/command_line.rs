@@ -40,8 +40,9 @@ fn an_override_without_a_value_is_refused() {
 
 #[test]
 fn a_file_that_is_not_there_leaves_standard_output_empty() {
-    for verb in ["solve", "check"] {
-        let output = run(&[verb, "no_such_file.toml", "--json"]);
+    for verb in ["solve", "check", "sweep"] {
+        let vary: &[&str] = if verb == "sweep" { &["--vary", "force=1,2"] } else { &[] };
+        let output = run(&[&[verb, "no_such_file.toml", "--json"][..], vary].concat());
         assert!([2, 3].contains(&code(&output)), "{verb}");
         assert!(output.stdout.is_empty());
         assert!(stderr(&output).contains("no_such_file.toml"), "{}", stderr(&output));
@@ -97,7 +98,9 @@ fn completions_come_for_every_shell() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let output = run(&["completions", shell]);
         assert_eq!(code(&output), 0, "{shell}");
-        assert!(stdout(&output).contains("tolerance"), "{shell}");
+        for word in ["tolerance", "sweep", "vary", "sensitivity", "compliance", "guesses"] {
+            assert!(stdout(&output).contains(word), "{shell}: {word}");
+        }
     }
 }
 
@@ -105,7 +108,7 @@ fn completions_come_for_every_shell() {
 fn help_names_every_verb_and_the_exit_codes() {
     let output = run(&["--help"]);
     assert_eq!(code(&output), 0);
-    for word in ["solve", "check", "examples", "schema", "completions", "Exit codes"] {
+    for word in ["solve", "sweep", "check", "examples", "schema", "completions", "Exit codes"] {
         assert!(stdout(&output).contains(word), "{word}");
     }
 }

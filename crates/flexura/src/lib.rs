@@ -97,6 +97,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! Whole grids over the parameters of a file are solved by a [`Sweep`], on all cores.
+//!
 //! # Results
 //!
 //! Not converging is no error: [`solution::Status`] says how a study ended, and the solution holds how far
@@ -104,9 +106,13 @@
 //! document; [`output::beams_csv`], [`output::model_vtp`] and [`output::shape_svg`] the files.
 
 mod family;
+mod places;
 mod solve_file;
+mod sweep;
 
 pub use family::FileFamily;
+pub use places::place;
+pub use sweep::{Axis, Sample, SampleStatus, Sweep};
 
 pub use flexura_expression as expression;
 pub use flexura_geometry as geometry;

@@ -17,6 +17,8 @@ pub struct Solved {
     pub solution: Solution,
     /// Stresses and outputs.
     pub evaluation: Evaluation,
+    /// Outputs that have no value, and why; the solution's warnings tell of them too.
+    pub without_value: Vec<PostError>,
 }
 
 impl Solved {
@@ -54,8 +56,6 @@ pub enum Error {
     File(Report),
     /// The file reads well but describes no solvable mechanism.
     Model(ProblemError),
-    /// An output has no value.
-    Output(PostError),
 }
 
 impl std::fmt::Display for Error {
@@ -63,7 +63,6 @@ impl std::fmt::Display for Error {
         match self {
             Error::File(report) => formatter.write_str(report.render(false).trim_end()),
             Error::Model(error) => write!(formatter, "{}: {} ({})", error.path, error.message, error.hint),
-            Error::Output(error) => write!(formatter, "{error}"),
         }
     }
 }
@@ -84,8 +83,9 @@ pub fn solve_file(
     let file = Document::read(path.as_ref()).map_err(Error::File)?;
     let model = file.model(overrides).map_err(Error::File)?;
     let mut family = crate::FileFamily::new(&file, overrides, &model);
-    let (solution, model) =
+    let (mut solution, model) =
         crate::solve_family(&model, &mut family, options, &mut |_| {}).map_err(Error::Model)?;
-    let evaluation = post::evaluate(&model, &solution).map_err(Error::Output)?;
-    Ok(Solved { model, solution, evaluation })
+    let (evaluation, without_value) = post::evaluate_each(&model, &solution);
+    solution.warnings.extend(without_value.iter().map(ToString::to_string));
+    Ok(Solved { model, solution, evaluation, without_value })
 }

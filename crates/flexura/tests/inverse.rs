@@ -1,5 +1,8 @@
 //! Known and unknown exchanged, and how outputs depend on parameters.
 
+// Clippy takes helpers of tests for code that must not panic.
+#![allow(clippy::unwrap_used)]
+
 use flexura::model::{Model, Output, Probe, Target, Unknown};
 use flexura::modelfile::Document;
 use flexura::post::OutputValue;

@@ -49,7 +49,9 @@ pub fn converge(system: &mut impl System, options: &NewtonOptions) -> NewtonEnd 
     let (mut step, mut next) = (vec![0.0; n], vec![0.0; n]);
     let mut kept = Vec::new();
     let mut rate = 0.0_f64;
-    if let Err(breakdown) = system.linearise() {
+    // Where the start is near, the tangent of the last solution often serves for the first steps.
+    let mut fresh = !(options.nearest.is_finite() && system.has_tangent());
+    if let Err(breakdown) = if fresh { system.linearise() } else { system.residual() } {
         return NewtonEnd::Broken(breakdown);
     }
     system.newton_step(&mut step);
@@ -57,7 +59,6 @@ pub fn converge(system: &mut impl System, options: &NewtonOptions) -> NewtonEnd 
     if size > options.nearest {
         return NewtonEnd::Far;
     }
-    let mut fresh = true;
     let mut factor = 1.0;
     for _ in 0..options.iterations {
         if !size.is_finite() {

@@ -27,6 +27,11 @@ pub trait System {
     /// Evaluates r and J at the present state, and factorises J.
     fn linearise(&mut self) -> Result<(), Breakdown>;
 
+    /// Is there a factorised tangent of a state that may be near?
+    fn has_tangent(&self) -> bool {
+        false
+    }
+
     /// The sign of det J at the last tangent. It changes where a path passes a fold or a branch point.
     fn orientation(&self) -> bool;
 

@@ -1,10 +1,14 @@
 //! From a solution to the result document.
 
-use crate::wire::{BeamDocument, BodyDocument, Document, JointDocument, SpringDocument, Value, WorkDocument};
+use crate::derivatives::{compliances, elasticities, motions, sensitivities};
+use crate::wire::{
+    BeamDocument, BodyDocument, CableDocument, CouplingDocument, Document, EquilibriumDocument,
+    JointDocument, SpringDocument, Value, WorkDocument,
+};
 use crate::{Named, OutputError};
 use flexura_model::Model;
 use flexura_post::{BeamStress, Evaluation, OutputValue};
-use flexura_solution::{BeamSample, BeamSolution, Solution, Status, Work};
+use flexura_solution::{BeamSample, BeamSolution, CableSolution, Solution, Status, Work};
 use flexura_spatial::{Pose, UnitQuaternion, Vector3};
 
 /// The result document of a solve.
@@ -16,26 +20,19 @@ pub fn document(
     solution: &Solution,
     evaluation: &Evaluation,
 ) -> Result<Document, OutputError> {
-    let converged = solution.status == Status::Converged;
-    let error_estimate = if converged || solution.error_estimate.is_finite() {
-        Some(finite(solution.error_estimate, || "error_estimate".into())?)
-    } else {
-        None
-    };
     let load_fraction = finite(solution.load_fraction, || "load_fraction".into())?;
     let beams = model.beams.iter().zip(&solution.beams).zip(&evaluation.beams);
-    let bodies = model.bodies.iter().zip(&solution.bodies);
-    let joints = model.joints.iter().zip(&solution.joints);
     let springs = model.springs.iter().zip(&solution.springs);
+    let has_tangents = !solution.tangents.is_empty();
     Ok(Document {
-        flexura: env!("CARGO_PKG_VERSION"),
+        flexura: env!("CARGO_PKG_VERSION").to_owned(),
         model: model.name.clone(),
-        study: "solve",
-        status: solution.status.word(),
+        study: "solve".to_owned(),
+        status: solution.status.word().to_owned(),
         reason: solution.reason.clone(),
         load_fraction: (load_fraction != 1.0).then_some(load_fraction),
         residual: finite(solution.residual, || "residual".into())?,
-        error_estimate,
+        error_estimate: error_estimate(solution)?,
         newton_steps: solution.work.newton_steps,
         warnings: solution.warnings.clone(),
         work: work(&solution.work),
@@ -43,32 +40,14 @@ pub fn document(
             let value = finite(parameter.value, || format!("parameters.{}", parameter.name))?;
             Ok((parameter.name.clone(), value))
         })?,
-        outputs: Named::collect(evaluation.outputs.iter(), |output| {
-            let path = || format!("outputs.{}", output.name);
-            let value = match output.value {
-                OutputValue::Number(number) => Value::Number(finite(number, path)?),
-                OutputValue::Vector(vector) => Value::Vector(all_finite(vector, path)?),
-            };
-            Ok((output.name.clone(), value))
-        })?,
+        unknowns: unknowns(model, solution)?,
+        outputs: outputs(evaluation)?,
         beams: Named::collect(beams, |((beam, result), stress)| {
             let path = format!("beams.{}", beam.name);
             Ok((beam.name.clone(), beam_document(&path, result, stress.as_ref())?))
         })?,
-        bodies: Named::collect(bodies, |(body, pose)| {
-            let path = format!("bodies.{}", body.name);
-            Ok((body.name.clone(), body_document(&path, pose)?))
-        })?,
-        joints: Named::collect(joints, |(joint, result)| {
-            let path = |field: &str| format!("joints.{}.{field}", joint.name);
-            let document = JointDocument {
-                coordinates: finite_list(&path("coordinates"), result.coordinates.iter().copied())?,
-                efforts: finite_list(&path("efforts"), result.efforts.iter().copied())?,
-                force: all_finite(result.wrench.force.into(), || path("force"))?,
-                moment: all_finite(result.wrench.moment.into(), || path("moment"))?,
-            };
-            Ok((joint.name.clone(), document))
-        })?,
+        bodies: bodies(model, solution)?,
+        joints: joints(model, solution)?,
         springs: Named::collect(springs, |(spring, result)| {
             let document = SpringDocument {
                 length: finite(result.length, || format!("springs.{}.length", spring.name))?,
@@ -76,10 +55,112 @@ pub fn document(
             };
             Ok((spring.name.clone(), document))
         })?,
+        couplings: Named::collect(
+            model.couplings.iter().zip(&solution.couplings),
+            |(coupling, multiplier)| {
+                let multiplier = finite(*multiplier, || format!("couplings.{}.multiplier", coupling.name))?;
+                Ok((coupling.name.clone(), CouplingDocument { multiplier }))
+            },
+        )?,
+        cables: Named::collect(model.cables.iter().zip(&solution.cables), |(cable, result)| {
+            Ok((cable.name.clone(), cable_document(&format!("cables.{}", cable.name), result)?))
+        })?,
+        compliance: has_tangents.then(|| compliances(model, solution)).transpose()?,
+        compliance_rows: has_tangents.then(|| ["x", "y", "z", "rx", "ry", "rz"].map(str::to_owned)),
+        compliance_columns: has_tangents.then(|| ["fx", "fy", "fz", "mx", "my", "mz"].map(str::to_owned)),
+        motion: has_tangents.then(|| motions(model, solution)).transpose()?,
+        sensitivities: sensitivities(model, solution, evaluation)?,
+        elasticities: elasticities(model, solution, evaluation)?,
+        equilibria: None,
         energy: finite(solution.energy, || "energy".into())?,
         stable: solution.stable,
         unstable_directions: solution.unstable_directions,
         stability_reason: solution.stability_reason.clone(),
+    })
+}
+
+/// One of several equilibria of a model, for [`Document::equilibria`].
+///
+/// # Errors
+/// As [`document`].
+pub fn equilibrium_document(
+    model: &Model,
+    solution: &Solution,
+    evaluation: &Evaluation,
+) -> Result<EquilibriumDocument, OutputError> {
+    Ok(EquilibriumDocument {
+        energy: finite(solution.energy, || "energy".into())?,
+        residual: finite(solution.residual, || "residual".into())?,
+        error_estimate: error_estimate(solution)?,
+        stable: solution.stable,
+        outputs: outputs(evaluation)?,
+        bodies: bodies(model, solution)?,
+        joints: joints(model, solution)?,
+    })
+}
+
+/// None for a study that broke off before there was one.
+fn error_estimate(solution: &Solution) -> Result<Option<f64>, OutputError> {
+    if solution.status == Status::Converged || solution.error_estimate.is_finite() {
+        finite(solution.error_estimate, || "error_estimate".into()).map(Some)
+    } else {
+        Ok(None)
+    }
+}
+
+fn unknowns(model: &Model, solution: &Solution) -> Result<Option<Named<f64>>, OutputError> {
+    if solution.found.is_empty() {
+        return Ok(None);
+    }
+    Named::collect(solution.found.iter(), |(position, value)| {
+        let name = &model.parameters[*position].name;
+        Ok((name.clone(), finite(*value, || format!("unknowns.{name}"))?))
+    })
+    .map(Some)
+}
+
+fn outputs(evaluation: &Evaluation) -> Result<Named<Value>, OutputError> {
+    Named::collect(evaluation.outputs.iter(), |output| {
+        let path = || format!("outputs.{}", output.name);
+        let value = match output.value {
+            OutputValue::Number(number) => Value::Number(finite(number, path)?),
+            OutputValue::Vector(vector) => Value::Vector(all_finite(vector, path)?),
+        };
+        Ok((output.name.clone(), value))
+    })
+}
+
+fn bodies(model: &Model, solution: &Solution) -> Result<Named<BodyDocument>, OutputError> {
+    Named::collect(model.bodies.iter().zip(&solution.bodies), |(body, pose)| {
+        let path = format!("bodies.{}", body.name);
+        Ok((body.name.clone(), body_document(&path, pose)?))
+    })
+}
+
+fn joints(model: &Model, solution: &Solution) -> Result<Named<JointDocument>, OutputError> {
+    Named::collect(model.joints.iter().zip(&solution.joints), |(joint, result)| {
+        let path = |field: &str| format!("joints.{}.{field}", joint.name);
+        let names = joint.law.kind.coordinate_names();
+        let document = JointDocument {
+            names: if names.len() > 1 {
+                names.iter().map(|name| (*name).to_owned()).collect()
+            } else {
+                Vec::new()
+            },
+            coordinates: finite_list(&path("coordinates"), result.coordinates.iter().copied())?,
+            efforts: finite_list(&path("efforts"), result.efforts.iter().copied())?,
+            force: all_finite(result.wrench.force.into(), || path("force"))?,
+            moment: all_finite(result.wrench.moment.into(), || path("moment"))?,
+        };
+        Ok((joint.name.clone(), document))
+    })
+}
+
+fn cable_document(path: &str, result: &CableSolution) -> Result<CableDocument, OutputError> {
+    Ok(CableDocument {
+        length: finite(result.length, || format!("{path}.length"))?,
+        tension: finite(result.tension, || format!("{path}.tension"))?,
+        course: finite_vectors(path, "course", result.course.iter().map(|point| (*point).into()))?,
     })
 }
 
@@ -153,11 +234,11 @@ pub(crate) fn section_quaternions(samples: &[BeamSample]) -> Vec<[f64; 4]> {
     quaternions
 }
 
-fn finite(value: f64, field: impl FnOnce() -> String) -> Result<f64, OutputError> {
+pub(crate) fn finite(value: f64, field: impl FnOnce() -> String) -> Result<f64, OutputError> {
     if value.is_finite() { Ok(value) } else { Err(OutputError::NotFinite { field: field(), value }) }
 }
 
-fn all_finite<const N: usize>(
+pub(crate) fn all_finite<const N: usize>(
     values: [f64; N],
     field: impl FnOnce() -> String,
 ) -> Result<[f64; N], OutputError> {

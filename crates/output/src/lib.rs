@@ -7,18 +7,24 @@
 //! one is refused with [`OutputError`], which names the field.
 
 mod csv;
+mod derivatives;
 mod document;
 mod json;
+mod read;
 mod svg;
 mod vtk;
 mod wire;
 
 pub use csv::beams_csv;
-pub use document::document;
+pub use document::{document, equilibrium_document};
 pub use json::{Named, to_json};
+pub use read::{ReadError, read_document, solution_of};
 pub use svg::shape_svg;
 pub use vtk::model_vtp;
-pub use wire::{BeamDocument, BodyDocument, Document, JointDocument, SpringDocument, Value, WorkDocument};
+pub use wire::{
+    BeamDocument, BodyDocument, CableDocument, CouplingDocument, Document, Elasticity, EquilibriumDocument,
+    JointDocument, SpringDocument, Value, WorkDocument,
+};
 
 /// Why something cannot be written.
 #[derive(Debug, thiserror::Error)]

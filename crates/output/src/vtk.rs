@@ -1,6 +1,6 @@
 //! `model.vtp`: VTK XML PolyData for ParaView and PyVista.
 //!
-//! One polyline a beam through the deformed samples. Numbers are written as inline base64 (a 32-bit byte
+//! One polyline a beam through the deformed samples, and one a cable along its course. Numbers are written as inline base64 (a 32-bit byte
 //! count, then the little-endian values), which is exact and can hold NaN where a beam has no stress.
 
 use flexura_model::Model;
@@ -8,18 +8,22 @@ use flexura_post::Evaluation;
 use flexura_solution::{BeamSample, Solution};
 use flexura_spatial::Vector3;
 
-/// The deformed beams with their fields.
+/// The deformed beams with their fields, and behind them the cables.
 ///
 /// Point data: `s`, `displacement`, `force`, `moment`, `curvature`, `stretch`, `director_e1`,
-/// `director_e2`, `director_e3`, `strain`, `stress` (the last two NaN for a section given as a stiffness).
-/// Cell data: `beam`, the beam's position in the model. Field data: `beam_names`.
+/// `director_e2`, `director_e3`, `strain`, `stress` (the last two NaN for a section given as a stiffness, all of them on
+/// cables). Cell data: `beam` and `cable`, the position in the model's list or -1, and `tension`, NaN for a beam.
+/// Field data: `beam_names`, and `cable_names` where there are cables.
 pub fn model_vtp(model: &Model, solution: &Solution, evaluation: &Evaluation) -> String {
     let samples: Vec<&BeamSample> = solution.beams.iter().flat_map(|beam| &beam.samples).collect();
-    let lines: Vec<usize> = solution.beams.iter().map(|beam| beam.samples.len()).collect();
+    let course: Vec<Vector3<f64>> = solution.cables.iter().flat_map(|cable| &cable.course).copied().collect();
+    let beams = solution.beams.iter().map(|beam| beam.samples.len());
+    let lines: Vec<usize> = beams.chain(solution.cables.iter().map(|cable| cable.course.len())).collect();
     let mut ends = Vec::with_capacity(lines.len());
     for count in &lines {
         ends.push(ends.last().copied().unwrap_or(0) + *count as i64);
     }
+    let points = samples.len() + course.len();
     let stress: Vec<[f64; 2]> = solution
         .beams
         .iter()
@@ -32,12 +36,16 @@ pub fn model_vtp(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
         })
         .collect();
 
+    // A cable has no sections, so its points have no such values.
+    let padded = |name: &str, components: usize, mut values: Vec<f64>| {
+        values.resize(components * points, f64::NAN);
+        floats(name, components, &values)
+    };
     let vectors = |name: &str, pick: &dyn Fn(&BeamSample) -> Vector3<f64>| {
-        let values: Vec<f64> = samples.iter().flat_map(|sample| <[f64; 3]>::from(pick(sample))).collect();
-        floats(name, 3, &values)
+        padded(name, 3, samples.iter().flat_map(|sample| <[f64; 3]>::from(pick(sample))).collect())
     };
     let scalars = |name: &str, pick: &dyn Fn(&BeamSample) -> f64| {
-        floats(name, 1, &samples.iter().map(|sample| pick(sample)).collect::<Vec<_>>())
+        padded(name, 1, samples.iter().map(|sample| pick(sample)).collect())
     };
     let director = |axis: Vector3<f64>| move |sample: &BeamSample| sample.pose.rotation * axis;
 
@@ -46,10 +54,12 @@ pub fn model_vtp(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\">\n",
         "<PolyData>\n<FieldData>\n",
     ));
-    text += &names(&model.beams.iter().map(|beam| beam.name.as_str()).collect::<Vec<_>>());
+    text += &names("beam_names", model.beams.iter().map(|beam| beam.name.as_str()));
+    if !model.cables.is_empty() {
+        text += &names("cable_names", model.cables.iter().map(|cable| cable.name.as_str()));
+    }
     text += &format!(
-        "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n",
-        samples.len(),
+        "</FieldData>\n<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n",
         lines.len()
     );
     text += "<PointData>\n";
@@ -62,15 +72,21 @@ pub fn model_vtp(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
     text += &vectors("director_e1", &director(Vector3::x()));
     text += &vectors("director_e2", &director(Vector3::y()));
     text += &vectors("director_e3", &director(Vector3::z()));
-    text += &floats("strain", 1, &stress.iter().map(|pair| pair[0]).collect::<Vec<_>>());
-    text += &floats("stress", 1, &stress.iter().map(|pair| pair[1]).collect::<Vec<_>>());
+    text += &padded("strain", 1, stress.iter().map(|pair| pair[0]).collect());
+    text += &padded("stress", 1, stress.iter().map(|pair| pair[1]).collect());
     text += "</PointData>\n<CellData>\n";
-    text += &integers("beam", &(0..lines.len() as i64).collect::<Vec<_>>());
+    let (beams, cables) = (solution.beams.len(), solution.cables.len());
+    let none = |count: usize| std::iter::repeat_n(-1, count);
+    text += &integers("beam", (0..beams as i64).chain(none(cables)));
+    text += &integers("cable", none(beams).chain(0..cables as i64));
+    let tensions = solution.cables.iter().map(|cable| cable.tension);
+    text += &floats("tension", 1, &std::iter::repeat_n(f64::NAN, beams).chain(tensions).collect::<Vec<_>>());
     text += "</CellData>\n<Points>\n";
-    text += &vectors("Points", &|sample| sample.pose.position);
+    let places = samples.iter().map(|sample| sample.pose.position).chain(course);
+    text += &floats("Points", 3, &places.flat_map(<[f64; 3]>::from).collect::<Vec<_>>());
     text += "</Points>\n<Lines>\n";
-    text += &integers("connectivity", &(0..samples.len() as i64).collect::<Vec<_>>());
-    text += &integers("offsets", &ends);
+    text += &integers("connectivity", 0..points as i64);
+    text += &integers("offsets", ends.into_iter());
     text += "</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
     text
 }
@@ -80,15 +96,16 @@ fn floats(name: &str, components: usize, values: &[f64]) -> String {
     array("Float64", name, &format!("NumberOfComponents=\"{components}\""), &bytes)
 }
 
-fn integers(name: &str, values: &[i64]) -> String {
-    let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+fn integers(name: &str, values: impl Iterator<Item = i64>) -> String {
+    let bytes: Vec<u8> = values.flat_map(i64::to_le_bytes).collect();
     array("Int64", name, "NumberOfComponents=\"1\"", &bytes)
 }
 
 /// Strings are stored one after another, each closed by a zero byte.
-fn names(names: &[&str]) -> String {
-    let bytes: Vec<u8> = names.iter().flat_map(|name| name.bytes().chain([0])).collect();
-    array("String", "beam_names", &format!("NumberOfTuples=\"{}\"", names.len()), &bytes)
+fn names<'a>(title: &str, names: impl ExactSizeIterator<Item = &'a str>) -> String {
+    let count = names.len();
+    let bytes: Vec<u8> = names.flat_map(|name| name.bytes().chain([0])).collect();
+    array("String", title, &format!("NumberOfTuples=\"{count}\""), &bytes)
 }
 
 fn array(kind: &str, name: &str, attributes: &str, bytes: &[u8]) -> String {

@@ -1,19 +1,19 @@
 //! The result document's shape, field for field. SI units, quaternions as (w, x, y, z).
 
 use crate::Named;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The result document of a solve.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Document {
     /// Version of flexura that wrote it.
-    pub flexura: &'static str,
+    pub flexura: String,
     /// The model's name.
     pub model: String,
     /// The study.
-    pub study: &'static str,
+    pub study: String,
     /// "converged", or how else it ended.
-    pub status: &'static str,
+    pub status: String,
     /// Why it did not converge, and what to try.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
@@ -27,12 +27,19 @@ pub struct Document {
     /// Newton steps taken.
     pub newton_steps: usize,
     /// Things to know though the solve went well.
+    #[serde(default)]
     pub warnings: Vec<String>,
     /// Work counters.
+    #[serde(default)]
     pub work: WorkDocument,
     /// The parameters that the model was solved with.
+    #[serde(default)]
     pub parameters: Named<f64>,
+    /// Of an inverse problem the parameters that were found, which stand in `parameters` too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unknowns: Option<Named<f64>>,
     /// The outputs.
+    #[serde(default)]
     pub outputs: Named<Value>,
     /// The beams' states at their samples.
     pub beams: Named<BeamDocument>,
@@ -41,7 +48,35 @@ pub struct Document {
     /// The joints' states.
     pub joints: Named<JointDocument>,
     /// The springs' states.
+    #[serde(default)]
     pub springs: Named<SpringDocument>,
+    /// The couplings' states.
+    #[serde(default)]
+    pub couplings: Named<CouplingDocument>,
+    /// The cables' states.
+    #[serde(default)]
+    pub cables: Named<CableDocument>,
+    /// Small motion of the origin (rows) per small dead load there (columns), global axes, SI; where it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compliance: Option<Named<[[f64; 6]; 6]>>,
+    /// What the rows of a compliance and the numbers of a motion are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compliance_rows: Option<[String; 6]>,
+    /// What the columns of a compliance are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compliance_columns: Option<[String; 6]>,
+    /// Motion of the same places per unit of the load fraction, all loads and drives growing in proportion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Named<[f64; 6]>>,
+    /// Derivatives of the outputs by the parameters, where they were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sensitivities: Option<Named<Named<Value>>>,
+    /// d ln output / d ln parameter; without those outputs and parameters that are zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elasticities: Option<Named<Named<Elasticity>>>,
+    /// Equilibria under the full load, by energy, where others than the one from rest were looked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub equilibria: Option<Vec<EquilibriumDocument>>,
     /// Strain energy, J.
     pub energy: f64,
     /// Null where it is not decided.
@@ -54,7 +89,7 @@ pub struct Document {
 }
 
 /// A number or a vector.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Value {
     /// One number.
@@ -63,8 +98,19 @@ pub enum Value {
     Vector([f64; 3]),
 }
 
+/// The elasticity of an output: a number, or three of which those are null that have none.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Elasticity {
+    /// Of one number.
+    Number(f64),
+    /// Of three components.
+    Vector([Option<f64>; 3]),
+}
+
 /// Work counters, as in `flexura_solution::Work`.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
 pub struct WorkDocument {
     /// Newton steps, full and simplified.
     pub newton_steps: usize,
@@ -83,7 +129,7 @@ pub struct WorkDocument {
 }
 
 /// A beam's state; every list has one entry for each sample.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct BeamDocument {
     /// Undeformed arc length, m.
     pub s: Vec<f64>,
@@ -106,7 +152,7 @@ pub struct BeamDocument {
 }
 
 /// A body's pose.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct BodyDocument {
     /// Global position, m.
     pub position: [f64; 3],
@@ -115,8 +161,11 @@ pub struct BodyDocument {
 }
 
 /// A joint's state.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct JointDocument {
+    /// What the coordinates are called, where there is more than one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub names: Vec<String>,
     /// Coordinates, m and rad.
     pub coordinates: Vec<f64>,
     /// Efforts, N and N·m.
@@ -128,10 +177,47 @@ pub struct JointDocument {
 }
 
 /// A spring's state.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct SpringDocument {
     /// Length, m.
     pub length: f64,
     /// Tension, N.
     pub tension: f64,
+}
+
+/// A coupling's state.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct CouplingDocument {
+    /// λ: its effort on a coordinate is factor × λ.
+    pub multiplier: f64,
+}
+
+/// A cable's state.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct CableDocument {
+    /// Length from anchor to anchor, m.
+    pub length: f64,
+    /// Tension, N.
+    pub tension: f64,
+    /// Its course, global, m.
+    pub course: Vec<[f64; 3]>,
+}
+
+/// One of several equilibria.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct EquilibriumDocument {
+    /// Strain energy, J.
+    pub energy: f64,
+    /// Largest scaled residual.
+    pub residual: f64,
+    /// Estimated largest relative error.
+    pub error_estimate: Option<f64>,
+    /// Null where it is not decided.
+    pub stable: Option<bool>,
+    /// The outputs.
+    pub outputs: Named<Value>,
+    /// The bodies' poses.
+    pub bodies: Named<BodyDocument>,
+    /// The joints' states.
+    pub joints: Named<JointDocument>,
 }

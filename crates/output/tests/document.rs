@@ -5,8 +5,8 @@
 
 mod common;
 
-use common::{CURVATURE, HEIGHT, LENGTH, model, solution};
-use flexura_output::{OutputError, document, to_json};
+use common::{CURVATURE, HEIGHT, LENGTH, model, rich, solution};
+use flexura_output::{OutputError, ReadError, document, read_document, solution_of, to_json};
 use flexura_post::{OutputResult, OutputValue, evaluate};
 use flexura_solution::Status;
 use serde_json::{Value, json};
@@ -42,6 +42,8 @@ fn a_converged_document_has_the_promised_keys_in_their_order() {
         "bodies",
         "joints",
         "springs",
+        "couplings",
+        "cables",
         "energy",
         "stable",
         "unstable_directions",
@@ -135,4 +137,100 @@ fn nan_is_refused_by_name() {
     });
     let error = document(&model, &solution(), &evaluation).unwrap_err();
     assert!(matches!(error, OutputError::NotFinite { ref field, .. } if field == "outputs.w"), "{error}");
+}
+
+#[test]
+fn joints_of_several_coordinates_name_them() {
+    let (model, solution) = rich();
+    let (_, value) = written(&model, &solution);
+    assert_eq!(value["joints"]["bevel"]["names"], json!(["first", "second"]));
+    assert_eq!(value["joints"]["table"]["names"], json!(["x", "y", "angle"]));
+    assert_eq!(value["joints"]["loose"]["coordinates"].as_array().unwrap().len(), 6);
+    assert_eq!(value["joints"]["hinge"].get("names"), None);
+    assert_eq!(value["couplings"], json!({ "gear": { "multiplier": 0.25 } }));
+    assert_eq!(value["cables"]["puller"]["tension"], 3.0);
+    assert_eq!(value["cables"]["puller"]["course"].as_array().unwrap().len(), 3);
+    assert_eq!(value["unknowns"], json!({ "push": 3.2 }));
+    assert_eq!(value["parameters"]["push"], 3.2);
+}
+
+#[test]
+fn compliances_stand_under_the_name_that_an_output_would_give_the_place() {
+    let (model, solution) = rich();
+    let (_, value) = written(&model, &solution);
+    let places: Vec<&String> = value["compliance"].as_object().unwrap().keys().collect();
+    assert_eq!(places, ["beam.\"wire <\"b\">\"[0.03 m]", "beam.strip[0.5]", "body.tip"]);
+    assert_eq!(value["compliance"]["body.tip"][3][1], 0.04);
+    assert_eq!(value["compliance_rows"], json!(["x", "y", "z", "rx", "ry", "rz"]));
+    assert_eq!(value["compliance_columns"], json!(["fx", "fy", "fz", "mx", "my", "mz"]));
+    assert_eq!(value["motion"]["body.tip"], json!([-0.05, 0.0, -0.1, 0.0, 1.2, 0.0]));
+}
+
+#[test]
+fn sensitivities_are_numbers_or_vectors_and_elasticities_leave_out_what_is_zero() {
+    let (model, solution) = rich();
+    let (_, value) = written(&model, &solution);
+    assert_eq!(value["sensitivities"]["sink"], json!({ "turn": -0.1, "push": 0.02 }));
+    assert_eq!(value["sensitivities"]["place"]["turn"], json!([0.05, 0.0, -0.1]));
+    let sink = common::arc(LENGTH).position.z;
+    let elasticity = value["elasticities"]["sink"]["turn"].as_f64().unwrap();
+    assert!((elasticity - -0.1 * 1.2 / sink).abs() < 1e-15);
+    assert_eq!(value["elasticities"]["place"]["turn"][1], Value::Null);
+}
+
+#[test]
+fn a_document_is_read_back_into_the_solution_that_it_was_made_of() {
+    let (model, solution) = rich();
+    let (text, _) = written(&model, &solution);
+    let back = solution_of(&read_document(&text).unwrap(), &model).unwrap();
+    assert_eq!(back.status, Status::Converged);
+    assert_eq!(back.bodies.len(), solution.bodies.len());
+    for (a, b) in back.beams.iter().zip(&solution.beams) {
+        assert_eq!(a.length, b.length);
+        for (a, b) in a.samples.iter().zip(&b.samples) {
+            assert!((a.pose.position - b.pose.position).norm() < 1e-15);
+            assert!(a.pose.rotation.angle_to(&b.pose.rotation) < 1e-14);
+            assert!((a.wrench.moment - b.wrench.moment).norm() < 1e-15 * (1.0 + b.wrench.moment.norm()));
+        }
+    }
+    assert_eq!(back.joints[1].coordinates, [0.0, 0.0]);
+    assert_eq!(back.found, [(1, 3.2)]);
+    assert!((back.springs[0].ends[1] - solution.springs[0].ends[1]).norm() < 1e-15);
+    let (again, _) = written(&model, &solution);
+    assert_eq!(again, text);
+
+    // The order of the model counts, not that of the document.
+    let mut turned = model.clone();
+    turned.bodies.swap(0, 1);
+    let other = solution_of(&read_document(&text).unwrap(), &turned).unwrap();
+    assert_eq!(other.bodies[1].position, back.bodies[0].position);
+}
+
+#[test]
+fn what_is_no_result_of_this_mechanism_is_refused_with_the_reason() {
+    let (model, solution) = rich();
+    let (text, value) = written(&model, &solution);
+    let read = |text: &str| read_document(text).and_then(|document| solution_of(&document, &model));
+    let message = |text: &str| read(text).unwrap_err().to_string();
+    for foreign in ["", "x = 1", "[]", "{}", "3", "{\"flexura\": \"0.1\"}"] {
+        assert!(matches!(read(foreign), Err(ReadError::NoDocument(_))), "{foreign}");
+    }
+    assert!(message(&text.replace("\"solve\"", "\"check\"")).contains("`check`"));
+    let changed = |change: &dyn Fn(&mut Value)| {
+        let mut value = value.clone();
+        change(&mut value);
+        message(&value.to_string())
+    };
+    let missing = changed(&|value| drop(value["beams"].as_object_mut().unwrap().remove("strip")));
+    assert!(missing.contains("another mechanism") && missing.contains("`strip`"), "{missing}");
+    let further = changed(&|value| value["bodies"]["extra"] = value["bodies"]["tip"].clone());
+    assert!(further.contains("`extra`"), "{further}");
+    let short = changed(&|value| drop(value["beams"]["strip"]["force"].as_array_mut().unwrap().pop()));
+    assert!(short.contains("broken") && short.contains("`force` has 20"), "{short}");
+    let skewed = changed(&|value| value["bodies"]["tip"]["rotation"] = json!([1.0, 1.0, 0.0, 0.0]));
+    assert!(skewed.contains("unit quaternion"), "{skewed}");
+    let jointed = changed(&|value| value["joints"]["table"] = value["joints"]["hinge"].clone());
+    assert!(jointed.contains("has 1 coordinates, that of the model file has 3"), "{jointed}");
+    let worded = changed(&|value| value["status"] = json!("fine"));
+    assert!(worded.contains("`fine`"), "{worded}");
 }

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{model, solution};
+use common::{model, rich, solution};
 use flexura_output::{beams_csv, model_vtp, shape_svg};
 use flexura_post::evaluate;
 use std::process::Command;
@@ -39,6 +39,14 @@ fn the_vtk_file_holds_one_line_a_beam() {
 }
 
 #[test]
+fn the_vtk_file_holds_cables_behind_the_beams() {
+    let (model, solution) = rich();
+    let text = model_vtp(&model, &solution, &evaluate(&model, &solution).unwrap());
+    assert!(text.contains("NumberOfPoints=\"50\"") && text.contains("NumberOfLines=\"4\""));
+    assert!(text.contains("Name=\"cable_names\" NumberOfTuples=\"2\"") && text.contains("Name=\"tension\""));
+}
+
+#[test]
 #[ignore = "needs Python with PyVista; FLEXURA_PYTHON names the interpreter"]
 fn the_vtk_file_opens_in_pyvista() {
     let (model, solution) = (model(), solution());
@@ -58,8 +66,25 @@ assert list(mesh.field_data["beam_names"]) == ["strip", 'wire <"b">'], list(mesh
 assert abs(mesh["strain"][3] - 3e-3) < 1e-12 and math.isnan(mesh["stress"][25])
 assert abs(mesh.compute_arc_length()["arc_length"].max() - 0.2) < 1e-3
 "#;
-    let output = Command::new(python).args(["-c", script]).arg(&path).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let run = |script: &str, path: &std::path::Path| {
+        let output = Command::new(&python).args(["-c", script]).arg(path).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    };
+    run(script, &path);
+
+    let (model, solution) = rich();
+    let path = path.with_file_name("rich.vtp");
+    std::fs::write(&path, model_vtp(&model, &solution, &evaluate(&model, &solution).unwrap())).unwrap();
+    let script = r#"
+import sys, math, pyvista
+mesh = pyvista.read(sys.argv[1])
+assert mesh.n_points == 50 and mesh.n_lines == 4, mesh
+assert list(mesh.cell_data["cable"]) == [-1, -1, 0, 1] and list(mesh.cell_data["beam"]) == [0, 1, -1, -1]
+assert list(mesh.cell_data["tension"])[2:] == [3.0, 1.5] and math.isnan(mesh.cell_data["tension"][0])
+assert list(mesh.field_data["cable_names"]) == ["puller", "bowden"]
+assert list(mesh.points[27]) == [0.1, 0.0, 0.06] and math.isnan(mesh["stress"][27])
+"#;
+    run(script, &path);
 }
 
 #[test]
@@ -75,5 +100,19 @@ fn the_picture_has_three_views_and_names_what_it_shows() {
     // FLEXURA_PICTURES keeps the picture for a look.
     if let Ok(folder) = std::env::var("FLEXURA_PICTURES") {
         std::fs::write(std::path::Path::new(&folder).join("arc.svg"), text).unwrap();
+    }
+}
+
+#[test]
+fn the_picture_shows_cables_and_every_kind_of_joint() {
+    let (model, solution) = rich();
+    let text = shape_svg(&model, &solution);
+    assert!(text.contains(">cable<"));
+    // Two cables in three views, and one line in the legend; three eyelets in three views, and one.
+    assert_eq!(text.matches("stroke=\"#7b3294\" stroke-width=\"1.2\"").count(), 7);
+    assert_eq!(text.matches("r=\"2.4\"").count(), 10);
+    assert!(!text.contains("NaN") && !text.contains("inf"));
+    if let Ok(folder) = std::env::var("FLEXURA_PICTURES") {
+        std::fs::write(std::path::Path::new(&folder).join("rich.svg"), text).unwrap();
     }
 }

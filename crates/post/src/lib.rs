@@ -3,13 +3,17 @@
 //! Everything here is computed from a [`Model`] and a [`Solution`] alone; no solver is involved. Strain
 //! energy is not computed but taken over from the solution, which integrates it with the beam.
 
+mod dependence;
 mod outputs;
+mod place;
 mod screw;
 mod stress;
 mod summary;
 
+pub use dependence::{Dependence, dependences};
 pub use flexura_geometry::SectionStress;
 pub use outputs::{OutputResult, OutputValue, evaluate_outputs};
+pub use place::place_name;
 pub use screw::{Screw, center_of_compliance, finite_screw, instantaneous_screw};
 pub use stress::{BeamPeaks, BeamStress, Peak, beam_stress};
 pub use summary::{
@@ -24,7 +28,7 @@ use flexura_solution::Solution;
 pub struct Evaluation {
     /// One for each beam; None where the section is given as a stiffness and has no outer fibre.
     pub beams: Vec<Option<BeamStress>>,
-    /// One for each output.
+    /// One for each output that has a value.
     pub outputs: Vec<OutputResult>,
 }
 
@@ -33,6 +37,11 @@ pub struct Evaluation {
 /// # Errors
 /// As [`evaluate`].
 pub fn outputs(model: &Model, solution: &Solution) -> Result<Vec<OutputResult>, PostError> {
+    outputs_of(model, solution, model.outputs.iter()).into_iter().collect()
+}
+
+/// [`outputs`], each for itself: one without a value does not take the others along.
+pub fn each_output(model: &Model, solution: &Solution) -> Vec<Result<OutputResult, PostError>> {
     outputs_of(model, solution, model.outputs.iter())
 }
 
@@ -41,21 +50,23 @@ pub fn outputs(model: &Model, solution: &Solution) -> Result<Vec<OutputResult>, 
 /// # Errors
 /// As [`evaluate`].
 pub fn targets(model: &Model, solution: &Solution) -> Result<Vec<f64>, PostError> {
-    let results = outputs_of(model, solution, model.targets.iter().map(|target| &target.output))?;
-    Ok(results
-        .iter()
-        .map(|result| match result.value {
-            OutputValue::Number(value) => value,
-            OutputValue::Vector(vector) => vector[0],
+    let results = outputs_of(model, solution, model.targets.iter().map(|target| &target.output));
+    results
+        .into_iter()
+        .map(|result| {
+            Ok(match result?.value {
+                OutputValue::Number(value) => value,
+                OutputValue::Vector(vector) => vector[0],
+            })
         })
-        .collect())
+        .collect()
 }
 
 fn outputs_of<'a>(
     model: &'a Model,
     solution: &Solution,
     outputs: impl Iterator<Item = &'a Output> + Clone,
-) -> Result<Vec<OutputResult>, PostError> {
+) -> Vec<Result<OutputResult, PostError>> {
     let stressed = |beam: usize| {
         outputs.clone().flat_map(|output| &output.probes).any(|probe| {
             matches!(probe.target, ProbeTarget::Beam(id, _) if id.0 == beam)
@@ -74,14 +85,27 @@ fn outputs_of<'a>(
 /// # Errors
 /// [`PostError`] where an output asks for something that is not there or comes out as no finite number.
 pub fn evaluate(model: &Model, solution: &Solution) -> Result<Evaluation, PostError> {
+    let (evaluation, mut errors) = evaluate_each(model, solution);
+    if errors.is_empty() { Ok(evaluation) } else { Err(errors.swap_remove(0)) }
+}
+
+/// [`evaluate`], with those outputs left out that have no value; the second of the pair says which and why.
+pub fn evaluate_each(model: &Model, solution: &Solution) -> (Evaluation, Vec<PostError>) {
     let beams: Vec<_> = model
         .beams
         .iter()
         .zip(&solution.beams)
         .map(|(beam, result)| beam_stress(model, beam, result))
         .collect();
-    let outputs = evaluate_outputs(model, solution, &beams)?;
-    Ok(Evaluation { beams, outputs })
+    let mut evaluation = Evaluation { beams, outputs: Vec::new() };
+    let mut errors = Vec::new();
+    for output in &model.outputs {
+        match outputs::evaluate(output, model, solution, &evaluation.beams) {
+            Ok(result) => evaluation.outputs.push(result),
+            Err(error) => errors.push(error),
+        }
+    }
+    (evaluation, errors)
 }
 
 /// An output that has no value.

@@ -90,7 +90,7 @@ mod tests {
             );
             let screw = finite_screw(&from, &to).unwrap();
             let off = screw.point - centre;
-            assert!((off - axis * axis.dot(&off)).norm() < 1e-8 / angle.min(1.0).max(1e-3), "{angle}: {off}");
+            assert!((off - axis * axis.dot(&off)).norm() < 1e-8 / angle.clamp(1e-3, 1.0), "{angle}: {off}");
             assert!((screw.axis - axis).norm() < 1e-8 && (screw.angle - angle).abs() < 1e-12);
             assert!((screw.pitch * angle - travel).abs() < 1e-8);
         }

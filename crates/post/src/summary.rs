@@ -24,6 +24,8 @@ pub struct Summary {
     pub newton_steps: usize,
     /// Load steps.
     pub load_steps: usize,
+    /// The parameters that were solved for: name, value (SI), unit.
+    pub found: Vec<(String, f64, String)>,
     /// Outputs in the model's order.
     pub outputs: Vec<OutputSummary>,
     /// Beams in the model's order.
@@ -34,6 +36,10 @@ pub struct Summary {
     pub joints: Vec<JointSummary>,
     /// Springs: name, length (m), tension (N).
     pub springs: Vec<(String, f64, f64)>,
+    /// Couplings: name, effort per factor (of the unit of the coordinates' efforts over that of the factors).
+    pub couplings: Vec<(String, f64)>,
+    /// Cables: name, length (m), tension (N).
+    pub cables: Vec<(String, f64, f64)>,
     /// Strain energy, J.
     pub energy: f64,
     /// Things to know though the solve went well.
@@ -51,6 +57,24 @@ pub struct Scales {
     pub force: f64,
     /// Largest internal or joint moment.
     pub moment: f64,
+}
+
+impl Scales {
+    /// The scales of a solution.
+    pub fn of(solution: &Solution) -> Self {
+        scales(solution)
+    }
+
+    /// Is a value of that unit nothing but rounding noise beside the other values of its kind?
+    pub fn hides(&self, value: f64, unit: &str) -> bool {
+        let scale = match unit {
+            "m" => self.length,
+            "N" => self.force,
+            "N*m" => self.moment,
+            _ => 0.0,
+        };
+        value.abs() < 1e-12 * scale
+    }
 }
 
 /// An output as a person reads it.
@@ -98,6 +122,8 @@ pub struct JointSummary {
 /// A joint's coordinate.
 #[derive(Clone, Copy, Debug)]
 pub struct CoordinateSummary {
+    /// What it is called; "" where it is the joint's only one.
+    pub name: &'static str,
     /// m or rad.
     pub value: f64,
     /// "m" or "rad".
@@ -121,6 +147,14 @@ pub fn summarise(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
         error_estimate: solution.error_estimate,
         newton_steps: solution.work.newton_steps,
         load_steps: solution.work.load_steps,
+        found: solution
+            .found
+            .iter()
+            .map(|(position, value)| {
+                let parameter = &model.parameters[*position];
+                (parameter.name.clone(), *value, parameter.unit.clone())
+            })
+            .collect(),
         outputs: evaluation.outputs.clone(),
         beams: beams
             .map(|((beam, result), stress)| BeamSummary {
@@ -143,14 +177,18 @@ pub fn summarise(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
             .collect(),
         joints: joints
             .map(|(joint, result)| {
-                let units = joint.law.kind.coordinate_kinds().iter().map(|kind| coordinate_units(*kind));
-                let values = result.coordinates.iter().zip(&result.efforts).zip(units);
-                let coordinate = |((value, effort), units): ((&f64, &f64), (&'static str, &'static str))| {
-                    CoordinateSummary { value: *value, unit: units.0, effort: *effort, effort_unit: units.1 }
-                };
+                let kind = joint.law.kind;
+                let is_only = kind.freedoms() == 1;
+                let values = result.coordinates.iter().zip(&result.efforts);
+                let names = kind.coordinate_kinds().iter().zip(kind.coordinate_names());
+                let coordinates = values.zip(names).map(|((value, effort), (kind, name))| {
+                    let (unit, effort_unit) = coordinate_units(*kind);
+                    let name = if is_only { "" } else { *name };
+                    CoordinateSummary { name, value: *value, unit, effort: *effort, effort_unit }
+                });
                 JointSummary {
                     name: joint.name.clone(),
-                    coordinates: values.map(coordinate).collect(),
+                    coordinates: coordinates.collect(),
                     force: result.wrench.force,
                     moment: result.wrench.moment,
                 }
@@ -161,6 +199,18 @@ pub fn summarise(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
             .iter()
             .zip(&solution.springs)
             .map(|(spring, result)| (spring.name.clone(), result.length, result.tension))
+            .collect(),
+        couplings: model
+            .couplings
+            .iter()
+            .zip(&solution.couplings)
+            .map(|(coupling, multiplier)| (coupling.name.clone(), *multiplier))
+            .collect(),
+        cables: model
+            .cables
+            .iter()
+            .zip(&solution.cables)
+            .map(|(cable, result)| (cable.name.clone(), result.length, result.tension))
             .collect(),
         energy: solution.energy,
         warnings: solution.warnings.clone(),

@@ -13,13 +13,15 @@
 
 use crate::family::{Family, size_of};
 use crate::sensitivity::SensitivityError;
+use crate::solve::What;
 use crate::{Outcome, Prepared, Progress};
 use flexura_equilibrium::ProblemError;
 use flexura_nonlinear::System;
 use flexura_solution::Status;
 use nalgebra::{DMatrix, DVector};
 
-/// Size of the first correction beyond which a step of the targets is shortened.
+/// Turning (rad), or relative change of a parameter, in a first correction beyond which a step of the targets is
+/// shortened. Wrenches may jump: they follow the shape.
 const NEAR: f64 = 0.5;
 /// Contraction that a step must show, and that lets the old derivatives serve on.
 const CONTRACTING: f64 = 0.5;
@@ -181,7 +183,6 @@ impl Prepared {
             if last.status != Status::Converged {
                 return last;
             }
-            self.border = None;
             match self.approach(family, wanted, tolerance) {
                 // On the mesh that has proved its accuracy, the answer moved by less than the accuracy.
                 Corrected::By(moved) if moved <= 10.0 * tolerance => return last,
@@ -199,7 +200,13 @@ impl Prepared {
         let mut first = None;
         let mut before = f64::INFINITY;
         for _ in 0..30 {
-            let fresh = self.border.is_none();
+            // A mesh of other segments has other unknowns.
+            let n = self.problem.unknowns();
+            let fits = self.border.as_ref().is_some_and(|b| b.along.iter().all(|v| v.len() == n));
+            let fresh = !(fits && self.problem.has_tangent());
+            if fresh {
+                self.border = None;
+            }
             if fresh && let Err(end) = self.renew_border(family) {
                 return end;
             }
@@ -256,9 +263,10 @@ impl Prepared {
         let sizes = self.parameter_sizes();
         let relative = change.iter().zip(&sizes).map(|(dp, size)| (dp / size).abs()).fold(0.0, f64::max);
         let size = self.problem.size(&step).max(relative);
-        if !size.is_finite() || size > nearest {
+        let reach = self.problem.turning(&step).max(relative);
+        if !size.is_finite() || reach > nearest {
             self.border = Some(border);
-            return Corrected::Failed(format!("a correction of {size:.1e} is needed"));
+            return Corrected::Failed(format!("a correction of {reach:.1e} is needed"));
         }
         let mut moved = Vec::with_capacity(values.len());
         for ((unknown, (parameter, value)), dp) in
@@ -383,7 +391,7 @@ impl Prepared {
     }
 
     fn targets_here(&mut self) -> Result<Vec<f64>, SensitivityError> {
-        let solution = self.light_solution()?;
+        let solution = self.light_solution(What::Targets)?;
         Ok(flexura_post::targets(self.problem.model(), &solution)?)
     }
 

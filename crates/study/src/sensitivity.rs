@@ -9,6 +9,7 @@
 
 use crate::Prepared;
 use crate::family::{Family, size_of};
+use crate::solve::What;
 use flexura_equilibrium::{CENTRAL, ProblemError};
 use flexura_nonlinear::{Breakdown, System};
 use flexura_post::{OutputValue, PostError};
@@ -67,7 +68,7 @@ impl From<PostError> for SensitivityError {
 impl Prepared {
     /// The outputs of the present state, components one after another.
     pub(crate) fn outputs_here(&mut self) -> Result<Vec<f64>, SensitivityError> {
-        let solution = self.light_solution()?;
+        let solution = self.light_solution(What::Outputs)?;
         let outputs = flexura_post::outputs(self.problem.model(), &solution)?;
         Ok(outputs
             .iter()

@@ -3,7 +3,7 @@
 use crate::family::Family;
 use crate::inverse::Border;
 use flexura_equilibrium::{Equilibrium, Finish, ProblemError};
-use flexura_model::{BeamPoint, LoadId, Model, ProbeTarget, Quantity};
+use flexura_model::{BeamPoint, LoadId, Model, Output, ProbeTarget, Quantity};
 use flexura_nonlinear::{Breakdown, NewtonEnd, PathEnd, PathOptions, PathWork, System, follow};
 use flexura_solution::{Solution, Status};
 use flexura_spatial::Vector3;
@@ -45,6 +45,13 @@ pub struct Prepared {
     pub(crate) path: PathOptions,
     /// Derivatives along the unknown parameters, from the last correction of an inverse problem.
     pub(crate) border: Option<Border>,
+}
+
+/// What a light solution is for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum What {
+    Outputs,
+    Targets,
 }
 
 /// What a solve came to, before anything is sampled.
@@ -121,11 +128,21 @@ impl Prepared {
     }
 
     /// What outputs and targets need, and no more.
-    pub(crate) fn light_solution(&mut self) -> Result<Solution, Breakdown> {
+    pub(crate) fn light_solution(&mut self, what: What) -> Result<Solution, Breakdown> {
         let model = self.problem.model();
-        let all = model.outputs.iter().chain(model.targets.iter().map(|target| &target.output));
-        let energies = all.flat_map(|o| &o.probes).any(|probe| probe.quantity == Quantity::Energy);
-        let mut solution = self.problem.sampled(2, energies);
+        let outputs: Vec<&Output> = match what {
+            What::Outputs => model.outputs.iter().collect(),
+            What::Targets => model.targets.iter().map(|target| &target.output).collect(),
+        };
+        let probes = || outputs.iter().flat_map(|output| &output.probes);
+        let energies = probes().any(|probe| probe.quantity == Quantity::Energy);
+        let beams: Vec<usize> = probes()
+            .filter_map(|probe| match probe.target {
+                ProbeTarget::Beam(beam, _) => Some(beam.0),
+                _ => None,
+            })
+            .collect();
+        let mut solution = self.problem.sampled(2, energies, |beam| beams.contains(&beam));
         if self.asks_for_tangents() {
             solution.tangents = self.problem.tangents(&tangent_targets(self.problem.model()))?;
         }

@@ -55,6 +55,7 @@ fn render(model: &Model, census: &Census) -> String {
         parameters.row(vec![parameter.name.clone(), quantity(parameter.value, &parameter.unit, 6)]);
     }
     add(&mut text, &parameters);
+    text += &inverse(model);
     let mut outputs = Table::new(&["outputs", "unit"]);
     for output in &model.outputs {
         let unit = if output.unit.is_empty() { "plain number" } else { &output.unit };
@@ -62,6 +63,33 @@ fn render(model: &Model, census: &Census) -> String {
         outputs.row(vec![output.name.clone(), format!("{shape}{unit}")]);
     }
     add(&mut text, &outputs);
+    text
+}
+
+/// What an inverse problem looks for, and from what.
+fn inverse(model: &Model) -> String {
+    if model.unknowns.is_empty() && model.targets.is_empty() {
+        return String::new();
+    }
+    let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let mut text = format!(
+        "\ninverse problem: {} to be found from {}\n",
+        counted(model.unknowns.len(), "parameter"),
+        counted(model.targets.len(), "target")
+    );
+    let mut unknowns = Table::new(&["to be found", "guess", "within"]);
+    for unknown in &model.unknowns {
+        let parameter = &model.parameters[unknown.parameter];
+        let shown = |value: f64| quantity(value, &parameter.unit, 6);
+        let range = unknown.range.map(|[low, high]| format!("{} to {}", shown(low), shown(high)));
+        unknowns.row(vec![parameter.name.clone(), shown(parameter.value), range.unwrap_or_default()]);
+    }
+    add(&mut text, &unknowns);
+    let mut targets = Table::new(&["targets", "wanted"]);
+    for target in &model.targets {
+        targets.row(vec![target.output.name.clone(), quantity(target.value, &target.output.unit, 6)]);
+    }
+    add(&mut text, &targets);
     text
 }
 
@@ -82,12 +110,21 @@ struct CheckDocument<'a> {
     unknown_counts: Named<usize>,
     equation_counts: Named<usize>,
     parameters: Named<f64>,
+    /// Of an inverse problem: the parameters to be found with their guesses.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    guesses: Option<Named<f64>>,
+    /// Of an inverse problem: the wanted values.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    targets: Option<Named<f64>>,
     warnings: &'a [String],
 }
 
 impl<'a> CheckDocument<'a> {
     fn new(model: &'a Model, census: &'a Census) -> Self {
         let parameters = model.parameters.iter();
+        let is_inverse = !model.unknowns.is_empty() || !model.targets.is_empty();
+        let unknowns = model.unknowns.iter().map(|unknown| &model.parameters[unknown.parameter]);
+        let targets = model.targets.iter().map(|target| (target.output.name.clone(), target.value));
         Self {
             flexura: env!("CARGO_PKG_VERSION"),
             model: &model.name,
@@ -99,7 +136,46 @@ impl<'a> CheckDocument<'a> {
             parameters: Named(
                 parameters.map(|parameter| (parameter.name.clone(), parameter.value)).collect(),
             ),
+            guesses: is_inverse.then(|| Named(unknowns.map(|p| (p.name.clone(), p.value)).collect())),
+            targets: is_inverse.then(|| Named(targets.collect())),
             warnings: &census.warnings,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexura::model::{Output, Target, Unknown};
+
+    const ELASTICA: &str = include_str!("../../../../models/elastica.toml");
+
+    fn elastica() -> Model {
+        Document::parse(ELASTICA, "elastica.toml").and_then(|file| file.model(&[])).unwrap()
+    }
+
+    #[test]
+    fn an_inverse_problem_tells_what_is_looked_for() {
+        let mut model = elastica();
+        assert_eq!(inverse(&model), "");
+        let census = flexura::check(&model).unwrap();
+        let text = to_json(&CheckDocument::new(&model, &census)).unwrap();
+        assert!(!text.contains("guesses") && !text.contains("targets"));
+
+        model.unknowns.push(Unknown { parameter: 0, range: Some([0.0, 50.0]) });
+        let output = Output { name: "beam.rod.end.position.y".into(), ..model.outputs[0].clone() };
+        model.targets.push(Target { output, value: 0.5 });
+        let text = render(&model, &census);
+        for words in [
+            "1 parameter to be found from 1 target",
+            "force",
+            "0 N to 50 N",
+            "beam.rod.end.position.y",
+            "500 mm",
+        ] {
+            assert!(text.contains(words), "{words}: {text}");
+        }
+        let text = to_json(&CheckDocument::new(&model, &census)).unwrap();
+        assert!(text.contains("\"guesses\": {\n    \"force\": 10.0"), "{text}");
     }
 }

@@ -2,9 +2,11 @@
 
 pub mod check;
 pub mod completions;
+mod earlier;
 pub mod examples;
 pub mod schema;
 pub mod solve;
+pub mod sweep;
 
 use crate::failure::Failure;
 use crate::screen;

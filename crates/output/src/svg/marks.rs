@@ -2,8 +2,8 @@
 
 use super::canvas::{Canvas, Style};
 use super::layout::Panel;
-use super::scene::{BodyMark, JointMark, LoadMark, Support};
-use super::{FAINT, INK, LOAD};
+use super::scene::{BodyMark, CableMark, JointMark, LoadMark, Support};
+use super::{CABLE, FAINT, INK, LOAD};
 use flexura_model::JointKind;
 
 /// Arrows of loads have this length in the view that shows them unforeshortened, px.
@@ -13,8 +13,9 @@ const ARROW: f64 = 36.0;
 pub fn support(canvas: &mut Canvas, panel: &Panel, support: &Support) {
     let at = panel.point(&support.point);
     if support.kind != JointKind::Weld {
-        stand(canvas, at);
-        canvas.circle(at, 3.6, "#ffffff", &Style::line(INK, 1.3));
+        let hold =
+            JointMark { point: support.point, axis: support.axis, kind: support.kind, is_grounded: true };
+        joint(canvas, panel, &hold);
         return;
     }
     let outward = panel.direction(&support.outward);
@@ -62,60 +63,117 @@ fn stand(canvas: &mut Canvas, at: [f64; 2]) {
     clamp(canvas, below(0.0, 12.0), [0.0, 1.0], 10.0);
 }
 
-/// A joint between two bodies.
+/// A joint between two bodies, or one of them and the ground.
 pub fn joint(canvas: &mut Canvas, panel: &Panel, joint: &JointMark) {
     let at = panel.point(&joint.point);
     let axis = panel.direction(&joint.axis);
     let length = axis[0].hypot(axis[1]);
+    // Seen along its axis a joint has no direction on the sheet.
+    let along = (length > 0.35).then(|| [axis[0] / length, axis[1] / length]);
     let outline = Style::line(INK, 1.3);
-    match joint.kind {
-        JointKind::Weld | JointKind::Free => {}
-        JointKind::Prismatic | JointKind::Cylindrical if length > 0.35 => {
-            let (u, v) = ([axis[0] / length, axis[1] / length], [-axis[1] / length, axis[0] / length]);
-            let place = |a: f64, b: f64| [at[0] + a * u[0] + b * v[0], at[1] + a * u[1] + b * v[1]];
-            for side in [-6.0, 6.0] {
-                canvas.line(place(-17.0, side), place(17.0, side), &outline);
-                if joint.is_grounded {
-                    for i in 0..6 {
-                        let a = -15.0 + 6.0 * f64::from(i);
-                        let end = place(a - 3.0, side + 4.0 * f64::signum(side));
-                        canvas.line(place(a, side), end, &Style::line(INK, 0.8));
-                    }
-                }
-            }
+    let is_standing = matches!(joint.kind, JointKind::Revolute | JointKind::Universal | JointKind::Spherical);
+    if joint.is_grounded && is_standing {
+        stand(canvas, at);
+    }
+    match (joint.kind, along) {
+        (JointKind::Weld, _) => {}
+        // It holds nothing, but what it measures and what springs it may carry is measured from here.
+        (JointKind::Free, _) => canvas.circle(at, 9.0, "none", &Style::line(FAINT, 1.1).dashed("2 3")),
+        (JointKind::Prismatic, Some(u)) => rails(canvas, at, u, 6.0, joint.is_grounded),
+        (JointKind::Cylindrical, Some(u)) => {
+            rails(canvas, at, u, 6.0, joint.is_grounded);
+            canvas.circle(at, 3.6, "#ffffff", &outline);
         }
-        JointKind::Prismatic | JointKind::Cylindrical | JointKind::Planar => {
-            let corner = |x: f64, y: f64| [at[0] + 6.0 * x, at[1] + 6.0 * y];
-            let square = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-            canvas.polygon(&square, "none", &outline);
+        (JointKind::Prismatic, None) => canvas.polygon(&square(at, 6.0), "none", &outline),
+        (JointKind::Cylindrical, None) => {
+            canvas.circle(at, 6.0, "none", &outline);
+            canvas.circle(at, 3.0, "#ffffff", &outline);
         }
-        JointKind::Revolute | JointKind::Universal | JointKind::Spherical => {
-            if joint.is_grounded {
-                stand(canvas, at);
-            }
-            let is_side_view = joint.kind == JointKind::Revolute && panel.depth(&joint.axis).abs() < 0.5;
-            if is_side_view && length > 0.0 {
-                let (u, v) = ([axis[0] / length, axis[1] / length], [-axis[1] / length, axis[0] / length]);
-                let corner = |a: f64, b: f64| [at[0] + a * u[0] + b * v[0], at[1] + a * u[1] + b * v[1]];
-                let pin = [corner(-7.0, -3.0), corner(7.0, -3.0), corner(7.0, 3.0), corner(-7.0, 3.0)];
-                canvas.polygon(&pin, "#ffffff", &outline);
-            } else {
-                canvas.circle(at, 4.2, "#ffffff", &outline);
-            }
-            if matches!(joint.kind, JointKind::Spherical | JointKind::Universal) {
-                canvas.circle(at, 1.4, INK, &Style::line(INK, 0.5));
-            }
+        (JointKind::Planar, Some(u)) => {
+            // The plane from its side.
+            rails(canvas, at, [-u[1], u[0]], 3.0, joint.is_grounded);
+            canvas.circle(at, 1.6, INK, &Style::line(INK, 0.5));
+        }
+        (JointKind::Planar, None) => {
+            canvas.polygon(&square(at, 8.0), "none", &outline);
+            canvas.circle(at, 3.6, "#ffffff", &outline);
+        }
+        (JointKind::Revolute, Some(u)) if panel.depth(&joint.axis).abs() < 0.5 => {
+            let place = across(at, u);
+            let pin = [place(-7.0, -3.0), place(7.0, -3.0), place(7.0, 3.0), place(-7.0, 3.0)];
+            canvas.polygon(&pin, "#ffffff", &outline);
+        }
+        (JointKind::Revolute, _) => canvas.circle(at, 4.2, "#ffffff", &outline),
+        (JointKind::Universal, _) => {
+            canvas.circle(at, 5.0, "#ffffff", &outline);
+            let place = across(at, along.unwrap_or([1.0, 0.0]));
+            canvas.line(place(-5.0, 0.0), place(5.0, 0.0), &Style::line(INK, 1.1));
+            canvas.line(place(0.0, -5.0), place(0.0, 5.0), &Style::line(INK, 1.1));
+        }
+        (JointKind::Spherical, _) => {
+            canvas.circle(at, 4.2, "#ffffff", &outline);
+            canvas.circle(at, 1.4, INK, &Style::line(INK, 0.5));
         }
     }
 }
 
-/// A body's origin: hollow where it was, filled where it is, with its name.
-pub fn body(canvas: &mut Canvas, panel: &Panel, body: &BodyMark, labels: &mut Vec<[f64; 2]>) {
+/// Places by their distance along a direction and to its side.
+fn across(at: [f64; 2], u: [f64; 2]) -> impl Fn(f64, f64) -> [f64; 2] {
+    move |a, b| [at[0] + a * u[0] - b * u[1], at[1] + a * u[1] + b * u[0]]
+}
+
+fn square(at: [f64; 2], half: f64) -> [[f64; 2]; 4] {
+    [[-half, -half], [half, -half], [half, half], [-half, half]].map(|[x, y]| [at[0] + x, at[1] + y])
+}
+
+/// Two rails along a direction, hatched outside where they stand on the ground.
+fn rails(canvas: &mut Canvas, at: [f64; 2], u: [f64; 2], gap: f64, is_grounded: bool) {
+    let place = across(at, u);
+    for side in [-gap, gap] {
+        canvas.line(place(-17.0, side), place(17.0, side), &Style::line(INK, 1.3));
+        for i in 0..if is_grounded { 6 } else { 0 } {
+            let a = -15.0 + 6.0 * f64::from(i);
+            let end = place(a - 3.0, side + 4.0 * f64::signum(side));
+            canvas.line(place(a, side), end, &Style::line(INK, 0.8));
+        }
+    }
+}
+
+/// A cable: a thin line through its eyelets.
+pub fn cable(canvas: &mut Canvas, panel: &Panel, cable: &CableMark) {
+    let course = cable.course.iter().map(|point| panel.point(point));
+    canvas.polyline(course, &Style::line(CABLE, 1.2));
+    for guide in &cable.guides {
+        eyelet(canvas, panel.point(guide));
+    }
+}
+
+/// What a cable runs through.
+pub fn eyelet(canvas: &mut Canvas, at: [f64; 2]) {
+    canvas.circle(at, 2.4, "#ffffff", &Style::line(CABLE, 1.0));
+}
+
+/// A body's origin: hollow where it was, filled where it is, with its name. Where a joint's own mark sits, that is
+/// left to be seen.
+pub fn body(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    body: &BodyMark,
+    joints: &[JointMark],
+    labels: &mut Vec<[f64; 2]>,
+) {
     let (before, now) = (panel.point(&body.initial), panel.point(&body.deformed));
     if (before[0] - now[0]).hypot(before[1] - now[1]) > 2.0 {
         diamond(canvas, before, false);
     }
-    diamond(canvas, now, true);
+    let is_covered = joints.iter().any(|joint| {
+        let at = panel.point(&joint.point);
+        !matches!(joint.kind, JointKind::Weld | JointKind::Free | JointKind::Prismatic)
+            && (at[0] - now[0]).hypot(at[1] - now[1]) < 4.0
+    });
+    if !is_covered {
+        diamond(canvas, now, true);
+    }
     let width = 6.2 * body.name.chars().count() as f64;
     let is_near_the_edge = now[0] + 9.0 + width > panel.frame[0] + panel.frame[2];
     let (anchor, x) = if is_near_the_edge { ("end", now[0] - 6.0) } else { ("start", now[0] + 6.0) };

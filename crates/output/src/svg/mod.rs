@@ -25,6 +25,7 @@ const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00
 const INK: &str = "#222222";
 const FAINT: &str = "#9a9a9a";
 const LOAD: &str = "#b2182b";
+const CABLE: &str = "#7b3294";
 /// Beams that the legend names one by one.
 const LEGEND_BEAMS: usize = 6;
 
@@ -116,6 +117,9 @@ fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
         let style = Style::line(COLOURS[i % COLOURS.len()], 2.4);
         canvas.curve(&pieces(panel, &beam.deformed), &style);
     }
+    for cable in &scene.cables {
+        marks::cable(canvas, panel, cable);
+    }
     for support in &scene.supports {
         marks::support(canvas, panel, support);
     }
@@ -127,7 +131,7 @@ fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
     }
     let mut labels: Vec<[f64; 2]> = Vec::new();
     for body in &scene.bodies {
-        marks::body(canvas, panel, body, &mut labels);
+        marks::body(canvas, panel, body, &scene.joints, &mut labels);
     }
 }
 
@@ -148,6 +152,7 @@ enum Entry {
     Beam { name: String, colour: &'static str },
     MoreBeams(usize),
     Body,
+    Cable,
     Support,
     Load,
 }
@@ -162,6 +167,9 @@ fn legend_entries(scene: &Scene) -> Vec<Entry> {
     }
     if !scene.bodies.is_empty() {
         entries.push(Entry::Body);
+    }
+    if !scene.cables.is_empty() {
+        entries.push(Entry::Cable);
     }
     if !scene.supports.is_empty() || scene.joints.iter().any(|joint| joint.is_grounded) {
         entries.push(Entry::Support);
@@ -189,6 +197,11 @@ fn draw_legend(canvas: &mut Canvas, origin: [f64; 2], entries: &[Entry]) {
             Entry::Body => {
                 marks::diamond(canvas, middle, true);
                 "rigid body".to_owned()
+            }
+            Entry::Cable => {
+                canvas.line(left, right, &Style::line(CABLE, 1.2));
+                marks::eyelet(canvas, middle);
+                "cable".to_owned()
             }
             Entry::Support => {
                 marks::clamp(canvas, [x + 10.0, y], [1.0, 0.0], 7.0);

@@ -1,6 +1,6 @@
 //! What there is to draw, in space.
 
-use flexura_model::{BeamPoint, Body, Frame, JointKind, LoadFrame, LoadTarget, Model, Mount};
+use flexura_model::{BeamPoint, Body, Frame, Guide, JointKind, LoadFrame, LoadTarget, Model, Mount};
 use flexura_solution::{BeamSample, Solution};
 use flexura_spatial::{Pose, Vector3};
 
@@ -51,6 +51,8 @@ pub struct Support {
     pub point: Vector3<f64>,
     /// From the beam into the ground, unit.
     pub outward: Vector3<f64>,
+    /// Of the hold, unit, global.
+    pub axis: Vector3<f64>,
     pub kind: JointKind,
 }
 
@@ -70,6 +72,12 @@ pub struct LoadMark {
     pub moment: Vector3<f64>,
 }
 
+/// A cable's course, and the points that guide it.
+pub struct CableMark {
+    pub course: Vec<Vector3<f64>>,
+    pub guides: Vec<Vector3<f64>>,
+}
+
 /// All of it.
 pub struct Scene {
     pub beams: Vec<BeamLine>,
@@ -77,6 +85,7 @@ pub struct Scene {
     pub supports: Vec<Support>,
     pub joints: Vec<JointMark>,
     pub springs: Vec<[Vector3<f64>; 2]>,
+    pub cables: Vec<CableMark>,
     pub loads: Vec<LoadMark>,
 }
 
@@ -105,12 +114,18 @@ impl Scene {
                 add_arm(model, solution, &mut bodies, end.mount, &Pose::translation(end.point));
             }
         }
+        for guide in model.cables.iter().flat_map(|cable| &cable.route) {
+            if let Guide::Point(place) = guide {
+                add_arm(model, solution, &mut bodies, place.mount, &Pose::translation(place.point));
+            }
+        }
         Self {
             beams: beams.collect(),
             bodies,
             supports,
             joints,
             springs: solution.springs.iter().map(|spring| spring.ends).collect(),
+            cables: cables(model, solution),
             loads: loads(model, solution),
         }
     }
@@ -127,6 +142,7 @@ impl Scene {
             [body.initial, body.deformed].into_iter().chain(arms)
         });
         let marks = self.springs.iter().flatten().copied().chain(self.joints.iter().map(|joint| joint.point));
+        let marks = marks.chain(self.cables.iter().flat_map(|cable| &cable.course).copied());
         let mut points = beams.chain(bodies).chain(marks).filter(|point| point.iter().all(|c| c.is_finite()));
         let first = points.next().unwrap_or_else(Vector3::zeros);
         points.fold([first; 2], |[low, high], point| [low.inf(&point), high.sup(&point)])
@@ -141,11 +157,20 @@ fn add_beam_ends(model: &Model, solution: &Solution, bodies: &mut [BodyMark]) ->
         for (end, sample, sign) in ends {
             let (Some(end), Some(sample)) = (end, sample) else { continue };
             match end.mount {
-                Mount::Ground => supports.push(Support {
-                    point: sample.pose.position,
-                    outward: sample.pose.rotation * Vector3::x() * sign,
-                    kind: end.hold.kind,
-                }),
+                Mount::Ground => {
+                    // Without a place of its own, a hold has the axes of the ground at a start, of the beam at an end.
+                    let axes = match end.placement {
+                        Some(placement) => placement.rotation,
+                        None if sign < 0.0 => Pose::identity().rotation,
+                        None => sample.rest_pose.rotation,
+                    };
+                    supports.push(Support {
+                        point: sample.pose.position,
+                        outward: sample.pose.rotation * Vector3::x() * sign,
+                        axis: axes * end.hold.axis,
+                        kind: end.hold.kind,
+                    });
+                }
                 Mount::Body(id) => {
                     if let Some(mark) = bodies.get_mut(id.0) {
                         mark.arms.push(Moved {
@@ -208,6 +233,20 @@ fn final_pose(solution: &Solution, mount: Mount) -> Pose {
         Mount::Beam(place) => sample_at(solution, place).map_or_else(Pose::identity, |s| s.pose),
         Mount::Body(id) => solution.bodies.get(id.0).copied().unwrap_or_else(Pose::identity),
     }
+}
+
+fn cables(model: &Model, solution: &Solution) -> Vec<CableMark> {
+    let place = |guide: &Guide| match guide {
+        Guide::Point(place) => Some(final_pose(solution, place.mount).point(&place.point)),
+        Guide::Channel { .. } => None,
+    };
+    let cables = model.cables.iter().zip(&solution.cables);
+    cables
+        .map(|(cable, result)| CableMark {
+            course: result.course.clone(),
+            guides: cable.route.iter().filter_map(place).collect(),
+        })
+        .collect()
 }
 
 fn loads(model: &Model, solution: &Solution) -> Vec<LoadMark> {

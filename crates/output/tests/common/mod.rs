@@ -1,11 +1,12 @@
 //! A mechanism whose solution is written down in closed form: a strip clamped to the ground and bent by a
 //! moment into an arc, with a rigid body at its tip, a hinge that holds a second, straight beam, and a spring.
 
-#![allow(dead_code)]
+#![allow(dead_code, clippy::unwrap_used)]
 
+use flexura_expression::{Binding, Expression, Kind};
 use flexura_model::*;
 use flexura_solution::*;
-use flexura_spatial::{Matrix3, Pose, Vector3, Wrench, exp};
+use flexura_spatial::{Matrix3, Matrix6, Pose, Twist, Vector3, Wrench, exp};
 
 pub const LENGTH: f64 = 0.2;
 /// Curvature k2 of the bent strip: it turns by 1.2 rad.
@@ -176,4 +177,115 @@ pub fn solution() -> Solution {
         unstable_directions: None,
         stability_reason: Some("not decided yet".into()),
     }
+}
+
+/// The same with what few mechanisms have: a bevel of two universal coordinates, a planar and a cylindrical joint, a
+/// coupling, two cables, a compliance, sensitivities and a parameter that was found.
+pub fn rich() -> (Model, Solution) {
+    let (mut model, mut solution) = (model(), solution());
+    let kinds = [
+        ("bevel", JointKind::Universal, Vector3::x()),
+        ("table", JointKind::Planar, Vector3::z()),
+        ("bush", JointKind::Cylindrical, Vector3::x()),
+        ("loose", JointKind::Free, Vector3::x()),
+        ("ball", JointKind::Spherical, Vector3::x()),
+        ("slide", JointKind::Prismatic, Vector3::z()),
+    ];
+    for (i, (name, kind, axis)) in kinds.into_iter().enumerate() {
+        let place = Vector3::new(0.02 + 0.04 * i as f64, 0.03, -0.06);
+        model.bodies.push(Body {
+            name: format!("b{i}"),
+            pose: Pose::translation(place),
+            ..model.bodies[0].clone()
+        });
+        solution.bodies.push(Pose::translation(place));
+        model.joints.push(Joint {
+            name: name.into(),
+            parent: Frame { mount: Mount::Ground, pose: Pose::translation(place) },
+            child: Mount::Body(BodyId(2 + i)),
+            child_pose: None,
+            law: JointLaw::free(kind, axis),
+        });
+        solution.joints.push(JointSolution {
+            coordinates: vec![0.0; kind.freedoms()],
+            efforts: vec![0.5; kind.freedoms()],
+            wrench: Wrench::zero(),
+        });
+    }
+    let term = |coordinate, factor| CouplingTerm { joint: JointId(1), coordinate, factor };
+    model.couplings.push(Coupling {
+        name: "gear".into(),
+        terms: vec![term(0, 1.0), term(1, -2.0)],
+        offset: 0.0,
+    });
+    solution.couplings.push(0.25);
+    let point = |mount, x, y, z| Guide::Point(Attachment { mount, point: Vector3::new(x, y, z) });
+    let tip = Mount::Body(BodyId(0));
+    model.cables.push(Cable {
+        name: "puller".into(),
+        route: vec![
+            point(Mount::Ground, 0.0, 0.0, 0.05),
+            point(Mount::Ground, 0.1, 0.0, 0.06),
+            point(tip, 0.0, 0.0, 0.01),
+        ],
+        law: CableLaw::Tension(3.0),
+    });
+    let end = arc(LENGTH).point(&Vector3::new(0.0, 0.0, 0.01));
+    solution.cables.push(CableSolution {
+        course: vec![Vector3::new(0.0, 0.0, 0.05), Vector3::new(0.1, 0.0, 0.06), end],
+        length: 0.25,
+        tension: 3.0,
+    });
+    model.cables.push(Cable {
+        name: "bowden".into(),
+        route: vec![Guide::Channel {
+            beam: BeamId(0),
+            between: [At::Fraction(0.0), At::Fraction(1.0)],
+            offset: [0.0.into(), (-0.006).into()],
+        }],
+        law: CableLaw::Length(0.2),
+    });
+    let channel = (0..=20).map(|i| arc(LENGTH * f64::from(i) / 20.0).point(&Vector3::new(0.0, 0.0, -0.006)));
+    solution.cables.push(CableSolution { course: channel.collect(), length: 0.2, tension: 1.5 });
+
+    let matrix = |i: usize, j: usize| if i == j { 1.0 + i as f64 } else { 0.01 * (i + j) as f64 };
+    let motion = Twist { angular: Vector3::new(0.0, 1.2, 0.0), linear: Vector3::new(-0.05, 0.0, -0.1) };
+    for target in [
+        ProbeTarget::Body(BodyId(0)),
+        ProbeTarget::Beam(BeamId(0), At::Fraction(0.5)),
+        ProbeTarget::Beam(BeamId(1), At::Length(0.03)),
+    ] {
+        solution.tangents.push(TangentSolution {
+            target,
+            compliance: Some(Matrix6::from_fn(matrix)),
+            motion,
+        });
+    }
+    let sum = |name: &str, unit: &str, components: &[usize]| {
+        let probe = |component| Probe {
+            target: ProbeTarget::Body(BodyId(0)),
+            quantity: Quantity::Position,
+            component,
+        };
+        let formula = |slot: usize| {
+            let whole = Expression::parse("q").unwrap();
+            let lowered = whole.lower(&mut |_| Ok(Binding::Slot(slot, Kind::Plain))).unwrap();
+            lowered.formula()
+        };
+        Output {
+            name: name.into(),
+            unit: unit.into(),
+            formulas: (0..components.len()).map(formula).collect(),
+            probes: components.iter().map(|component| probe(*component)).collect(),
+        }
+    };
+    model.outputs = vec![sum("sink", "m", &[2]), sum("place", "m", &[0, 1, 2])];
+    model.parameters.push(Parameter { name: "push".into(), value: 3.2, unit: "N".into() });
+    solution.sensitivities = Some(Sensitivities {
+        parameters: vec![0, 1],
+        outputs: vec![vec![vec![-0.1, 0.02]], vec![vec![0.05, 0.0], vec![0.0, 0.0], vec![-0.1, 0.02]]],
+        bodies: vec![vec![motion; 2]; 8],
+    });
+    solution.found = vec![(1, 3.2)];
+    (model, solution)
 }

@@ -1,0 +1,204 @@
+//! The command with many solves.
+
+// Clippy takes helpers of tests for code that must not panic.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{code, flexura, folder, run, stderr, stdout};
+use serde_json::Value;
+
+fn rows(table: &str) -> Vec<Vec<String>> {
+    let cells = |line: &str| line.split(',').map(str::to_owned).collect();
+    table.lines().map(cells).collect()
+}
+
+fn cell(rows: &[Vec<String>], row: usize, column: &str) -> String {
+    let position = rows[0].iter().position(|heading| heading == column).unwrap();
+    rows[row][position].clone()
+}
+
+#[test]
+fn a_sweep_is_one_solve_a_row() {
+    let output = run(&["sweep", "elastica.toml", "--vary", "force=2 N:0.01 kN:5"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let rows = rows(&stdout(&output));
+    assert_eq!(rows.len(), 6);
+    assert_eq!(rows[0][..2], ["force [N]", "status"]);
+    assert_eq!(rows[0][rows[0].len() - 3..], ["energy [J]", "error_estimate", "reason"]);
+    let forces: Vec<String> = (1..=5).map(|row| cell(&rows, row, "force [N]")).collect();
+    assert_eq!(forces, ["2.0", "4.0", "6.0", "8.0", "10.0"]);
+    // Mattiasson (1981), P L^2 / EI = 2 and 10.
+    for (row, rise) in [(1, 0.49346), (5, 0.81061)] {
+        let found: f64 = cell(&rows, row, "rise [m]").parse().unwrap();
+        assert!((found - rise).abs() < 1e-5, "{found}");
+        assert_eq!(cell(&rows, row, "status"), "converged");
+    }
+    let solved = run(&["solve", "elastica.toml", "--set", "force=10", "--json"]);
+    let document: Value = serde_json::from_slice(&solved.stdout).unwrap();
+    let energy: f64 = cell(&rows, 5, "energy [J]").parse().unwrap();
+    assert!((energy - document["energy"].as_f64().unwrap()).abs() < 1e-8 * energy);
+}
+
+#[test]
+fn the_numbers_do_not_depend_on_how_many_threads_there_are() {
+    let sweep = |jobs: &str| {
+        let grid = ["--vary", "push=1 N,5 N", "--vary", "radius=7 mm:8 mm:3"];
+        let output = flexura()
+            .args(["sweep", "compression_spring.toml", "--jobs", jobs, "--tolerance", "1e-6"])
+            .args(grid)
+            .output()
+            .unwrap();
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        stdout(&output)
+    };
+    let one = sweep("1");
+    assert_eq!(one, sweep("4"));
+    let rows = rows(&one);
+    let pairs: Vec<String> =
+        rows[1..].iter().map(|row| format!("{} {}", row[0], &row[1][..row[1].len().min(6)])).collect();
+    assert_eq!(pairs, ["1.0 0.007", "1.0 0.0075", "1.0 0.008", "5.0 0.007", "5.0 0.0075", "5.0 0.008"]);
+}
+
+/// A stage on two leaves whose length is a parameter.
+const LEAF: &str = r#"
+format = 1
+name = "leaf"
+[parameter]
+length = "100 mm"
+push = "-1 N"
+[material.steel]
+young = "207 GPa"
+poisson = 0.3
+[section.leaf]
+shape = "rectangle"
+width = "10 mm"
+height = "0.5 mm"
+[beam.leaf]
+material = "steel"
+section = "leaf"
+length = "length"
+start = { body = "ground", hold = "clamp" }
+[load.push]
+beam = "leaf"
+at = 1
+force = [0, 0, "push"]
+[output]
+tip = "beam.leaf.end.position"
+slope = "beam.leaf.end.rotation.y"
+root = "sqrt(beam.leaf.end.position.z / (1 m))"
+"#;
+
+#[test]
+fn a_sample_that_fails_is_a_row_and_not_the_end() {
+    let folder = folder("a_sample_that_fails");
+    let file = folder.join("leaf.toml");
+    std::fs::write(&file, LEAF).unwrap();
+    let table = folder.join("table.csv");
+    let output = flexura()
+        .arg("sweep")
+        .arg(&file)
+        .args(["--vary", "length=50 mm,-50 mm,100 mm", "--vary", "push=1 N", "--json", "-o"])
+        .arg(&table)
+        .output()
+        .unwrap();
+    assert_eq!(code(&output), 1, "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("1 of 3 samples did not converge: 1 input_error"),
+        "{}",
+        stderr(&output)
+    );
+    let rows = rows(&std::fs::read_to_string(&table).unwrap());
+    assert_eq!(
+        rows[0],
+        [
+            "length [m]",
+            "push [N]",
+            "status",
+            "tip.x [m]",
+            "tip.y [m]",
+            "tip.z [m]",
+            "slope [rad]",
+            "root",
+            "energy [J]",
+            "error_estimate",
+            "reason"
+        ]
+    );
+    assert_eq!(rows[2][..9], ["-0.05", "1.0", "input_error", "", "", "", "", "", ""]);
+    assert_eq!(rows[2][10..].join(","), "\"beam.leaf.length: must be positive, is -0.05\"");
+    assert_eq!(rows[3][2], "converged");
+
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&document["study"], &document["status"]), (&"sweep".into(), &"incomplete".into()));
+    assert_eq!(document["vary"]["length"][1], -0.05);
+    assert_eq!(document["samples"].as_array().unwrap().len(), 3);
+    assert_eq!(document["samples"][1]["energy"], Value::Null);
+    assert_eq!(document["samples"][2]["outputs"]["tip"].as_array().unwrap().len(), 3);
+    assert_eq!(document["samples"][2]["parameters"]["length"], 0.1);
+}
+
+#[test]
+fn an_output_without_a_value_leaves_the_others() {
+    let folder = folder("an_output_without_a_value");
+    let file = folder.join("leaf.toml");
+    std::fs::write(&file, LEAF).unwrap();
+    // The root of a negative number.
+    let output =
+        flexura().arg("solve").arg(&file).args(["--set", "push=-1 N", "--json", "-o"]).arg(&folder).output();
+    let output = output.unwrap();
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("`root`"), "{}", stderr(&output));
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(document["status"], "converged");
+    assert_eq!(document["outputs"].get("root"), None);
+    assert!(document["outputs"]["slope"].as_f64().unwrap() > 0.0);
+    assert!(document["warnings"][0].as_str().unwrap().contains("`root`"), "{}", document["warnings"]);
+    assert!(folder.join("result.json").is_file() && folder.join("shape.svg").is_file());
+
+    let summary = flexura().arg("solve").arg(&file).output().unwrap();
+    assert_eq!(code(&summary), 2);
+    assert!(stdout(&summary).contains("slope") && !stdout(&summary).contains("root"));
+
+    let sweep = flexura().arg("sweep").arg(&file).args(["--vary", "push=-1 N,1 N"]).output().unwrap();
+    assert_eq!(code(&sweep), 0, "{}", stderr(&sweep));
+    assert!(stderr(&sweep).contains("1 converged sample lacks"), "{}", stderr(&sweep));
+    let rows = rows(&stdout(&sweep));
+    assert_eq!(cell(&rows, 1, "root"), "");
+    assert_ne!(cell(&rows, 2, "root"), "");
+}
+
+#[test]
+fn what_cannot_be_varied_is_told_with_the_nearest_name() {
+    let cases = [
+        ("forse=1:2:3", "`force`"),
+        ("force=1 m:2 N:3", "a length"),
+        ("force=1:2", "from, to and how many"),
+        ("force=1:2:1", "from 2 on"),
+        ("force=1:2:many", "from 2 on"),
+        ("force=", "empty"),
+        ("force=1:2:3:4", "no range"),
+        ("force", "what to vary"),
+        ("force=inf", "not finite"),
+        ("force=1:2:20000000", "number of values"),
+    ];
+    for (text, words) in cases {
+        let output = run(&["sweep", "elastica.toml", "--vary", text]);
+        assert_eq!(code(&output), 2, "{text}");
+        assert!(stderr(&output).contains(words), "{text}: {}", stderr(&output));
+        assert!(output.stdout.is_empty());
+    }
+    let twice = run(&["sweep", "elastica.toml", "--vary", "force=1,2", "--vary", "force=1,2"]);
+    assert!(code(&twice) == 2 && stderr(&twice).contains("varied twice"));
+    let both = run(&["sweep", "elastica.toml", "--vary", "force=1,2", "--set", "force=1"]);
+    assert!(code(&both) == 2 && stderr(&both).contains("both set and varied"));
+    assert_eq!(code(&run(&["sweep", "elastica.toml"])), 2);
+    assert_eq!(code(&run(&["sweep", "elastica.toml", "--vary", "force=1,2", "--jobs", "0"])), 2);
+}
+
+#[test]
+fn a_table_that_cannot_be_written_is_told_before_anything_is_solved() {
+    let output = run(&["sweep", "elastica.toml", "--vary", "force=1,2", "-o", "no/such/folder/table.csv"]);
+    assert_eq!(code(&output), 3);
+    assert!(output.stdout.is_empty() && stderr(&output).contains("table.csv"));
+}

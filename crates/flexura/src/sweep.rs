@@ -1,0 +1,355 @@
+//! Many solves of one file over a grid of its parameters.
+//!
+//! Every sample is a solve of its own, from rest, so that its numbers depend neither on its neighbours nor on how many
+//! threads share the work.
+
+use crate::expression::{Dimension, Expression, ExpressionError, Kind};
+use crate::model::Model;
+use crate::modelfile::{Document, suggestion};
+use crate::post::{OutputResult, each_output};
+use crate::solution::Status;
+use crate::{FileFamily, Options, solve_family};
+use rayon::prelude::*;
+
+/// A sweep of more samples than this is taken for a mistake.
+const MOST_SAMPLES: usize = 10_000_000;
+
+/// One parameter of a sweep with its values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Name of the parameter.
+    pub parameter: String,
+    /// Its SI unit as text.
+    pub unit: String,
+    /// SI.
+    pub values: Vec<f64>,
+}
+
+impl Axis {
+    /// Reads `push=0 N:10 N:11` (from, to, how many, ends included) or `push=1 N,2 N,5 N` for a parameter of the model.
+    ///
+    /// # Errors
+    /// One sentence that says what is wrong and what to write.
+    pub fn parse(model: &Model, text: &str) -> Result<Self, String> {
+        let Some((name, range)) = text.split_once('=') else {
+            return Err(format!(
+                "`{text}` says not what to vary: write push=\"0 N:10 N:11\" or push=\"1 N,2 N,5 N\""
+            ));
+        };
+        let name = name.trim();
+        let names: Vec<&str> = model.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+        let Some(position) = names.iter().position(|known| *known == name) else {
+            let hint = suggestion(name, &names, "parameter");
+            return Err(format!("there is no parameter `{name}` to vary; {hint}"));
+        };
+        if model.unknowns.iter().any(|unknown| unknown.parameter == position) {
+            return Err(format!(
+                "`{name}` is an unknown of the file, which every solve finds; vary another parameter"
+            ));
+        }
+        let unit = &model.parameters[position].unit;
+        let number = |text: &str| number(name, unit, text);
+        let parts = split(range, ':');
+        let values = match parts[..] {
+            [_] => split(range, ',').into_iter().map(number).collect::<Result<Vec<f64>, _>>()?,
+            [from, to, count] => {
+                let (from, to) = (number(from)?, number(to)?);
+                let count: usize = count
+                    .trim()
+                    .parse()
+                    .ok()
+                    .filter(|count| (2..=MOST_SAMPLES).contains(count))
+                    .ok_or_else(|| {
+                        let count = count.trim();
+                        format!("`{count}` is no number of values for `{name}`: a whole number from 2 on is wanted")
+                    })?;
+                // Both ends are met exactly.
+                let last = (count - 1) as f64;
+                let between = |i: usize| (from * (last - i as f64) + to * i as f64) / last;
+                (0..count)
+                    .map(|i| {
+                        if i == 0 {
+                            from
+                        } else if i + 1 == count {
+                            to
+                        } else {
+                            between(i)
+                        }
+                    })
+                    .collect()
+            }
+            _ => {
+                return Err(format!(
+                    "`{range}` is no range for `{name}`: write from, to and how many, as in {name}=\"0:1:11\""
+                ));
+            }
+        };
+        Ok(Self { parameter: name.to_owned(), unit: unit.clone(), values })
+    }
+}
+
+/// The parts of a text between separators that stand in no bracket.
+fn split(text: &str, separator: char) -> Vec<&str> {
+    let (mut parts, mut depth, mut start) = (Vec::new(), 0i32, 0);
+    for (i, character) in text.char_indices() {
+        match character {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            c if c == separator && depth == 0 => {
+                parts.push(&text[start..i]);
+                start = i + c.len_utf8();
+            }
+            _ => {}
+        }
+    }
+    parts.push(&text[start..]);
+    parts
+}
+
+/// A number with an optional unit that fits the parameter's.
+fn number(name: &str, unit: &str, text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let fail = |error: ExpressionError| format!("`{text}` is no value for `{name}`: {}", error.message);
+    let unbound =
+        |span: std::ops::Range<usize>| ExpressionError::new("only numbers and units can stand here", span);
+    let evaluate =
+        |text: &str| Expression::parse(text)?.evaluate(&mut |reference| Err(unbound(reference.span.clone())));
+    let quantity = evaluate(text).map_err(fail)?;
+    if !quantity.value.is_finite() {
+        return Err(format!("`{text}` is no value for `{name}`: it is not finite"));
+    }
+    // A parameter declared without a unit takes any, as in the file.
+    let wanted: Option<Dimension> = match evaluate(&format!("1 {unit}")) {
+        Ok(one) if !unit.is_empty() => Some(one.kind.dimension()),
+        _ => None,
+    };
+    match wanted {
+        Some(wanted) if !quantity.kind.fits(&wanted) => Err(format!(
+            "`{text}` is no value for `{name}`: expected {wanted}, found {}",
+            match quantity.kind {
+                Kind::Plain => Dimension::NUMBER,
+                Kind::Of(dimension) => dimension,
+            }
+        )),
+        _ => Ok(quantity.value),
+    }
+}
+
+/// How one sample ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SampleStatus {
+    /// As a solve ends.
+    Solved(Status),
+    /// These values make no sound model.
+    InputError,
+}
+
+impl SampleStatus {
+    /// The word that stands in tables and documents.
+    pub fn word(&self) -> &'static str {
+        match self {
+            SampleStatus::Solved(status) => status.word(),
+            SampleStatus::InputError => "input_error",
+        }
+    }
+
+    /// Is there an equilibrium?
+    pub fn is_converged(&self) -> bool {
+        *self == SampleStatus::Solved(Status::Converged)
+    }
+}
+
+/// One sample. Of one that did not converge everything but status and reason is empty.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// Value of each varied parameter, SI.
+    pub values: Vec<f64>,
+    /// How it ended.
+    pub status: SampleStatus,
+    /// Values of the model's unknowns, SI.
+    pub found: Vec<f64>,
+    /// One for each output of the model; None where it has no value.
+    pub outputs: Vec<Option<OutputResult>>,
+    /// Strain energy, J.
+    pub energy: Option<f64>,
+    /// Estimated largest relative error.
+    pub error_estimate: Option<f64>,
+    /// Why it did not converge, or why an output has no value.
+    pub reason: Option<String>,
+}
+
+/// The full grid over some parameters of a file.
+pub struct Sweep<'a> {
+    document: &'a Document,
+    overrides: Vec<(String, String)>,
+    axes: Vec<Axis>,
+    options: Options,
+}
+
+impl<'a> Sweep<'a> {
+    /// All combinations of the axes' values, those of the last axis next to each other.
+    ///
+    /// # Errors
+    /// One sentence: a parameter that is varied twice, or both set and varied; too many samples.
+    pub fn new(
+        document: &'a Document,
+        overrides: &[(String, String)],
+        axes: Vec<Axis>,
+        options: &Options,
+    ) -> Result<Self, String> {
+        for (i, axis) in axes.iter().enumerate() {
+            let name = &axis.parameter;
+            if axes[..i].iter().any(|other| other.parameter == *name) {
+                return Err(format!("`{name}` is varied twice"));
+            }
+            if overrides.iter().any(|(set, _)| set == name) {
+                return Err(format!("`{name}` is both set and varied"));
+            }
+        }
+        let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.values.len()));
+        match count {
+            Some(count) if count <= MOST_SAMPLES => {}
+            _ => return Err(format!("a sweep may have at most {MOST_SAMPLES} samples; take fewer values")),
+        }
+        // Only outputs are read, and every place that one asks for is sampled anyway.
+        let options =
+            Options { samples: 2, sensitivities: false, compliances: Vec::new(), ..options.clone() };
+        Ok(Self { document, overrides: overrides.to_vec(), axes, options })
+    }
+
+    /// What is varied, the slowest first.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// How many samples there are.
+    pub fn count(&self) -> usize {
+        self.axes.iter().map(|axis| axis.values.len()).product()
+    }
+
+    /// Solves all samples on `jobs` threads (None: as many as the machine has); `done` is called behind each.
+    ///
+    /// # Errors
+    /// The machine gives no threads.
+    pub fn run(&self, jobs: Option<usize>, done: &(dyn Fn() + Sync)) -> Result<Vec<Sample>, String> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(jobs.unwrap_or(0))
+            .build()
+            .map_err(|error| format!("cannot start threads: {error}"))?;
+        Ok(pool.install(|| {
+            let samples = (0..self.count()).into_par_iter().with_max_len(1);
+            samples
+                .map(|position| {
+                    let sample = self.sample(position);
+                    done();
+                    sample
+                })
+                .collect()
+        }))
+    }
+
+    /// The values of one sample.
+    fn values(&self, position: usize) -> Vec<f64> {
+        let mut rest = position;
+        let mut values: Vec<f64> = Vec::with_capacity(self.axes.len());
+        for axis in self.axes.iter().rev() {
+            values.push(axis.values[rest % axis.values.len()]);
+            rest /= axis.values.len();
+        }
+        values.reverse();
+        values
+    }
+
+    fn sample(&self, position: usize) -> Sample {
+        let mut sample = Sample {
+            values: self.values(position),
+            status: SampleStatus::InputError,
+            found: Vec::new(),
+            outputs: Vec::new(),
+            energy: None,
+            error_estimate: None,
+            reason: None,
+        };
+        let mut overrides = self.overrides.clone();
+        for (axis, value) in self.axes.iter().zip(&sample.values) {
+            overrides.push((axis.parameter.clone(), format!("{value:e} {}", axis.unit)));
+        }
+        let model = match self.document.model(&overrides) {
+            Ok(model) => model,
+            Err(report) => {
+                sample.reason =
+                    report.problems().first().map(|problem| told(&problem.path, &problem.message));
+                return sample;
+            }
+        };
+        let mut family = FileFamily::new(self.document, &overrides, &model);
+        let (solution, model) = match solve_family(&model, &mut family, &self.options, &mut |_| {}) {
+            Ok(solved) => solved,
+            Err(error) => {
+                sample.reason = Some(told(&error.path, &error.message));
+                return sample;
+            }
+        };
+        sample.status = SampleStatus::Solved(solution.status);
+        if solution.status != Status::Converged {
+            sample.reason = solution.reason;
+            return sample;
+        }
+        sample.found = solution.found.iter().map(|(_, value)| *value).collect();
+        for output in each_output(&model, &solution) {
+            match output {
+                Ok(output) => sample.outputs.push(Some(output)),
+                Err(error) => {
+                    sample.outputs.push(None);
+                    sample.reason.get_or_insert(error.to_string());
+                }
+            }
+        }
+        sample.energy = Some(solution.energy);
+        sample.error_estimate = Some(solution.error_estimate);
+        sample
+    }
+}
+
+fn told(path: &str, message: &str) -> String {
+    if path.is_empty() { message.to_owned() } else { format!("{path}: {message}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Parameter;
+
+    fn axis(text: &str) -> Result<Vec<f64>, String> {
+        let parameter =
+            |name: &str, unit: &str| Parameter { name: name.into(), value: 1.0, unit: unit.into() };
+        let parameters = vec![parameter("push", "N"), parameter("turns", ""), parameter("slope", "rad")];
+        Axis::parse(&Model { parameters, ..Model::default() }, text).map(|axis| axis.values)
+    }
+
+    #[test]
+    fn ranges_meet_both_ends_and_lists_keep_their_order() {
+        assert_eq!(axis("push=0.1:0.3:3").unwrap(), [0.1, 0.2, 0.3]);
+        assert_eq!(axis(" push = 1 kN : -1 kN : 2 ").unwrap(), [1000.0, -1000.0]);
+        assert_eq!(axis("push=3,min(1 N, 2 N),2 N").unwrap(), [3.0, 1.0, 2.0]);
+        assert_eq!(axis("turns=1:5:5").unwrap(), [1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert!((axis("slope=90 deg").unwrap()[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_is_no_range_is_refused() {
+        for text in [
+            "push",
+            "pull=1",
+            "push=1:2",
+            "push=1:2:1",
+            "push=1:2:2.5",
+            "push=1 m",
+            "push=",
+            "push=a",
+            "push=1,,2",
+        ] {
+            assert!(axis(text).is_err(), "{text}");
+        }
+    }
+}
