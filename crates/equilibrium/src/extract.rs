@@ -2,7 +2,7 @@
 
 use crate::system::Equilibrium;
 use flexura_mechanics::joint::Kinematics;
-use flexura_solution::{JointSolution, Solution, SpringSolution, Status, Work};
+use flexura_solution::{BeamSolution, JointSolution, Solution, SpringSolution, Status, Work};
 use flexura_spatial::Wrench;
 
 /// Nodes and weights of three-point Gauss quadrature on [0, 1].

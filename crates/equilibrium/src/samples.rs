@@ -17,6 +17,7 @@ type Threads<'a> = [(&'a TendonChannel, f64)];
 impl Equilibrium {
     pub(crate) fn cables(&self, beams: &[BeamSolution]) -> Vec<CableSolution> {
         let scale = self.lowered.scale;
+        let channels = self.channel_lengths();
         let mut cables = Vec::with_capacity(self.lowered.ropes.len());
         for (index, rope) in self.lowered.ropes.iter().enumerate() {
             let mut course: Vec<Vector3<f64>> = Vec::new();
@@ -26,7 +27,7 @@ impl Equilibrium {
                     course.push(point);
                 }
             };
-            let mut length = self.channel_length(index) * scale.length;
+            let mut length = channels[index] * scale.length;
             for part in &rope.course {
                 match part {
                     Course::Line(line) => {
@@ -53,15 +54,28 @@ impl Equilibrium {
         cables
     }
 
-    /// How much of a cable runs in channels, nondimensional, at the last evaluation.
-    fn channel_length(&self, rope: usize) -> f64 {
-        let mut length = 0.0;
-        for (span, ends) in self.lowered.spans.iter().zip(&self.ends) {
-            for (i, _) in span.tendons.iter().enumerate().filter(|(_, tendon)| **tendon == rope) {
-                length += ends.iter().filter_map(|end| end.lengths.get(i)).map(|l| l[0]).sum::<f64>();
+    /// How much of each cable runs in channels, nondimensional.
+    fn channel_lengths(&self) -> Vec<f64> {
+        let mut lengths = vec![0.0; self.lowered.ropes.len()];
+        for (index, span) in self.lowered.spans.iter().enumerate().filter(|(_, s)| !s.tendons.is_empty()) {
+            let mesh = &self.meshes[index];
+            let pulls = self.pulls(index);
+            let acting = Acting { jumps: &span.jumps, load: self.load, pulls: &pulls };
+            for (k, segment) in mesh.segments.iter().enumerate() {
+                let mut state = match k {
+                    0 => self.head_state(index),
+                    _ => self.inner_state(self.layout.spans[index].inner[k - 1].state),
+                };
+                for &j in mesh.first_jumps.iter().filter(|_| k == 0) {
+                    jump(&span.jumps[j], self.load, &mut state);
+                }
+                let along = carry_plain(segment, &acting, &mut state);
+                for (&rope, length) in span.tendons.iter().zip(&along) {
+                    lengths[rope] += length[0];
+                }
             }
         }
-        length
+        lengths
     }
 
     /// Where a beam is sampled, m.

@@ -2,8 +2,9 @@
 
 use flexura::model::{Cable, CableLaw, Guide, Model};
 use flexura::modelfile::Document;
+use flexura::post::OutputValue;
 use flexura::solution::{Solution, Status};
-use flexura::{Equilibrium, Options};
+use flexura::{Equilibrium, FileFamily, Options, solve_family};
 
 const ROBOT: &str = r#"
 format = 1
@@ -191,4 +192,83 @@ fn channels_that_make_no_sense_are_refused() {
         .replace("length = \"200 mm\"", "curve = { kind = \"arc\", radius = \"5 mm\", angle = \"90 deg\" }");
     let message = refused(&curved);
     assert!(message.contains("beyond the centre about which beam.rod is curved"), "{message}");
+}
+
+/// Outputs by parameters of tendons, pulled and kept, against differences of whole solves.
+#[test]
+fn sensitivities_see_tendons() {
+    let text = ROBOT
+        .replace("tension = \"5 N\"", "tension = \"pull\"")
+        .replace("tension = \"3 N\"", "length = \"wound\"")
+        .replace("[\"6 mm\", \"2 mm\"]", "[\"aside\", \"2 mm\"]")
+        + "[parameter]\npull = \"5 N\"\nwound = \"240 mm\"\naside = \"6 mm\"\n\
+           [output]\ntip = \"beam.rod.end.position\"\nlength = \"cable.straight.length\"\n\
+           tension = \"cable.winding.tension\"\nmoment = \"beam.rod.start.moment\"\n";
+    let document = Document::parse(&text, "test.toml").unwrap();
+    let solve = |overrides: &[(String, String)], sensitivities| {
+        let model = document.model(overrides).unwrap();
+        let mut family = FileFamily::new(&document, overrides, &model);
+        let options = Options { tolerance: 1e-12, samples: 3, sensitivities, ..Options::default() };
+        let (solution, model) = solve_family(&model, &mut family, &options, &mut |_| {}).unwrap();
+        assert_eq!(solution.status, Status::Converged, "{:?}", solution.reason);
+        let evaluation = flexura::post::evaluate(&model, &solution).unwrap();
+        let flat = |value| match value {
+            OutputValue::Number(v) => vec![v],
+            OutputValue::Vector(v) => v.to_vec(),
+        };
+        let values: Vec<f64> = evaluation.outputs.iter().flat_map(|o| flat(o.value)).collect();
+        (values, solution, model)
+    };
+    let (base, solution, model) = solve(&[], true);
+    let found = solution.sensitivities.unwrap();
+    let flat: Vec<&Vec<f64>> = found.outputs.iter().flatten().collect();
+    assert_eq!((model.parameters.len(), base.len()), (3, 8));
+    for (p, parameter) in model.parameters.iter().enumerate() {
+        let h = 1e-3 * parameter.value;
+        let at = |factor: f64| {
+            let text = format!("{:e} {}", parameter.value + factor * h, parameter.unit);
+            solve(&[(parameter.name.clone(), text)], false).0
+        };
+        let s = [1.0, -1.0, 2.0, -2.0].map(at);
+        for i in 0..base.len() {
+            let difference = (8.0 * (s[0][i] - s[1][i]) - (s[2][i] - s[3][i])) / (12.0 * h);
+            let size = difference.abs().max(base[i].abs() / parameter.value);
+            let error = (flat[i][p] - difference).abs();
+            assert!(error <= 1e-6 * size, "{i} by {}: {} against {difference}", parameter.name, flat[i][p]);
+        }
+    }
+}
+
+/// A result puts the mechanism back where it was, its tendons pulling.
+#[test]
+fn a_result_with_tendons_can_be_started_from() {
+    let mut model = read(ROBOT);
+    model.cables.truncate(1);
+    let pulled = solve(&model);
+    for law in [model.cables[0].law, CableLaw::Length(pulled.cables[0].length)] {
+        model.cables[0].law = law;
+        let solution = solve(&model);
+        let mut problem = Equilibrium::new(&model).unwrap();
+        problem.stand(&solution);
+        let size = problem.residual_size();
+        assert!(size < 1e-6, "{size}");
+    }
+}
+
+/// A channel on the axis of a rod that does not stretch has one length, whatever the rod does.
+#[test]
+fn a_tendon_that_nothing_can_lengthen_is_named() {
+    let text = ROBOT
+        .replace("tension = \"5 N\"", "length = \"190 mm\"")
+        .replace("[\"6 mm\", \"2 mm\"]", "[0, 0]")
+        .replace("length = \"200 mm\"", "length = \"200 mm\"\nextension = false");
+    let solution = flexura::solve(&read(&text), &Options::default(), &mut |_| {});
+    let message = match solution {
+        Err(error) => error.to_string(),
+        Ok(solution) => {
+            assert_ne!(solution.status, Status::Converged);
+            solution.reason.unwrap_or_default()
+        }
+    };
+    assert!(message.contains("cable.straight"), "{message}");
 }
