@@ -70,6 +70,9 @@ conforms!(
     leaf_four_bar_far,
     cartwheel_far,
     bistable_far,
+    tendon_arc,
+    tendon_helix,
+    tendon_robot,
 );
 
 #[test]

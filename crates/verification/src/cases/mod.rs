@@ -16,6 +16,7 @@ mod roll_up;
 mod spring;
 mod strip;
 mod taper;
+mod tendons;
 
 use crate::Case;
 
@@ -38,6 +39,7 @@ pub fn cases() -> Vec<Case> {
         &deep_arch::CASES,
         &flexure_order::CASES,
         &flexures::CASES,
+        &tendons::CASES,
     ]
     .concat()
 }
