@@ -53,6 +53,7 @@ conforms!(
     clamped_clamped,
     four_bar_balance,
     four_bar,
+    six_rod_robot,
     ends_cantilever,
     ends_clamped,
     ends_pinned,
@@ -70,6 +71,7 @@ conforms!(
     leaf_four_bar_far,
     cartwheel_far,
     bistable_far,
+<<<<<<< HEAD
     couplings,
     universal_joint,
     rigid_four_bar,
@@ -77,6 +79,11 @@ conforms!(
     string_polygon,
     hinged_beams,
     limits_and_rests,
+=======
+    tendon_arc,
+    tendon_helix,
+    tendon_robot,
+>>>>>>> main
 );
 
 #[test]

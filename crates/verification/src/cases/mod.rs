@@ -12,11 +12,16 @@ mod follower;
 mod four_bar;
 mod frame;
 mod helix_wrench;
+<<<<<<< HEAD
 mod joints;
+=======
+mod robot;
+>>>>>>> main
 mod roll_up;
 mod spring;
 mod strip;
 mod taper;
+mod tendons;
 
 use crate::Case;
 
@@ -34,12 +39,17 @@ pub fn cases() -> Vec<Case> {
         &taper::CASES,
         &clamped_clamped::CASES,
         &four_bar::CASES,
+        &robot::CASES,
         &ends::CASES,
         &deep_arch::CASES,
         &frame::CASES,
         &flexure_order::CASES,
         &flexures::CASES,
+<<<<<<< HEAD
         &joints::CASES,
+=======
+        &tendons::CASES,
+>>>>>>> main
     ]
     .concat()
 }
