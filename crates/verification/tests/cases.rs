@@ -71,7 +71,6 @@ conforms!(
     leaf_four_bar_far,
     cartwheel_far,
     bistable_far,
-<<<<<<< HEAD
     couplings,
     universal_joint,
     rigid_four_bar,
@@ -79,11 +78,9 @@ conforms!(
     string_polygon,
     hinged_beams,
     limits_and_rests,
-=======
     tendon_arc,
     tendon_helix,
     tendon_robot,
->>>>>>> main
 );
 
 #[test]

@@ -12,11 +12,8 @@ mod follower;
 mod four_bar;
 mod frame;
 mod helix_wrench;
-<<<<<<< HEAD
 mod joints;
-=======
 mod robot;
->>>>>>> main
 mod roll_up;
 mod spring;
 mod strip;
@@ -45,11 +42,8 @@ pub fn cases() -> Vec<Case> {
         &frame::CASES,
         &flexure_order::CASES,
         &flexures::CASES,
-<<<<<<< HEAD
         &joints::CASES,
-=======
         &tendons::CASES,
->>>>>>> main
     ]
     .concat()
 }
