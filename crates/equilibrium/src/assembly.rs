@@ -17,12 +17,13 @@
 //! before the inverse left Jacobian of the logarithm, which leaves the Newton step exactly the same because
 //! that Jacobian leaves the residual itself unchanged.
 
-use crate::lower::{Carrier, Hold};
-use crate::shooting::{Plain, SegmentEnd, carry_columns, carry_plain, jump, plain, pose_of, wrench_of};
+use crate::held::{Held, HoldRef};
+use crate::shooting::{
+    Acting, MAX_COLUMNS, Plain, SegmentEnd, carry_columns, carry_plain, jump, plain, pose_of, wrench_of,
+};
 use crate::system::Equilibrium;
-use flexura_mechanics::joint::{Configuration, Kinematics, MAX_FREEDOMS};
 use flexura_nonlinear::{Block, Breakdown, Matrix};
-use flexura_spatial::{Pose, Twist, UnitQuaternion, Vector3, Wrench, log};
+use flexura_spatial::{Twist, Vector3, Wrench, log};
 
 type V = Vector3<f64>;
 
@@ -39,95 +40,7 @@ pub(crate) fn rows(column: &[f64; 12], first: usize) -> V {
 /// Lists how a wrench changes along each unknown that it depends on.
 pub(crate) type WrenchColumns<'a> = dyn Fn(&mut dyn FnMut(usize, Wrench)) + 'a;
 
-/// A frame carried by a node through a joint, and how it moves.
-pub(crate) struct Held {
-    /// Node that carries it, with the node's origin.
-    node: Option<(usize, V)>,
-    /// Where the joint's moving frame is.
-    pub moving: Pose,
-    /// The same with what is left of the mismatch.
-    pub target: Pose,
-    /// Columns of H of the unknown coordinates, global.
-    subspace: [Twist; MAX_FREEDOMS],
-    count: usize,
-    /// F's axes, in which changes of H are given.
-    fixed: UnitQuaternion<f64>,
-}
-
-impl Held {
-    /// How the target moves when the carrying node moves along its unknown `i` (three turnings, three shifts).
-    fn by_node(&self, i: usize) -> Twist {
-        match self.node {
-            Some((_, origin)) if i < 3 => {
-                Twist { angular: unit(i), linear: unit(i).cross(&(self.target.position - origin)) }
-            }
-            Some(_) => Twist { angular: V::zeros(), linear: unit(i - 3) },
-            None => Twist { angular: V::zeros(), linear: V::zeros() },
-        }
-    }
-
-    /// How the target moves along coordinate `i`.
-    fn by_coordinate(&self, i: usize) -> Twist {
-        let h = &self.subspace[i];
-        let lever = self.target.position - self.moving.position;
-        Twist { angular: h.angular, linear: h.linear + h.angular.cross(&lever) }
-    }
-
-    /// Number of unknowns that move the target: of its node, then coordinates.
-    pub fn motions(&self) -> usize {
-        self.count + if self.node.is_some() { 6 } else { 0 }
-    }
-
-    /// How the target moves along the `i`-th of them.
-    pub fn motion(&self, i: usize) -> Twist {
-        match (self.node.is_some(), i) {
-            (true, 0..6) => self.by_node(i),
-            (true, _) => self.by_coordinate(i - 6),
-            (false, _) => self.by_coordinate(i),
-        }
-    }
-
-    fn arm(&self) -> V {
-        self.node.map_or(V::zeros(), |(_, origin)| self.target.position - origin)
-    }
-
-    /// `H_iᵀ W` for the wrench `w` about the target's origin.
-    fn effort(&self, i: usize, w: &Wrench) -> f64 {
-        let lever = self.target.position - self.moving.position;
-        let h = &self.subspace[i];
-        h.angular.dot(&(w.moment + lever.cross(&w.force))) + h.linear.dot(&w.force)
-    }
-}
-
 impl Equilibrium {
-    pub(crate) fn held(&self, carrier: &Carrier, hold: &HoldRef<'_>, configuration: &Configuration) -> Held {
-        let base = self.node_pose(carrier.node);
-        let fixed = base * carrier.frame;
-        let coordinates = hold.coordinates;
-        let moving = fixed * coordinates.joint.pose(configuration);
-        let left = 1.0 - self.load;
-        let target = if left == 0.0 || is_zero(hold.mismatch) {
-            moving
-        } else {
-            let twist = Twist { angular: hold.mismatch.angular * left, linear: hold.mismatch.linear * left };
-            moving * Pose::exp(&twist)
-        };
-        let mut subspace = [Twist { angular: V::zeros(), linear: V::zeros() }; MAX_FREEDOMS];
-        let count = coordinates.unknowns();
-        for (i, h) in subspace.iter_mut().enumerate().take(count) {
-            let local = coordinates.subspace(configuration, i);
-            *h = Twist { angular: fixed.rotation * local.angular, linear: fixed.rotation * local.linear };
-        }
-        Held {
-            node: carrier.node.map(|n| (n, base.position)),
-            moving,
-            target,
-            subspace,
-            count,
-            fixed: fixed.rotation,
-        }
-    }
-
     fn start_hold(&self, span: usize) -> Held {
         let hold = &self.lowered.spans[span].start;
         let configuration = self.configuration(&self.layout.spans[span].start);
@@ -165,6 +78,9 @@ impl Equilibrium {
         }
         visit(slots.start.unknown, slots.start.count);
         visit(slots.wrench.unknown, slots.wrench.count);
+        for slot in self.lowered.spans[span].tendons.iter().filter_map(|&rope| self.layout.ropes[rope]) {
+            visit(slot.unknown, 1);
+        }
         count
     }
 
@@ -209,9 +125,11 @@ impl Equilibrium {
         let mut ends = std::mem::take(&mut self.ends[span]);
         let mut gaps = std::mem::take(&mut self.gaps[span]);
         let (load, derive) = (self.load, sink.matrix.is_some());
+        let pulls = self.pulls(span);
         {
             let mesh = &self.meshes[span];
             let jumps = &self.lowered.spans[span].jumps;
+            let acting = Acting { jumps, load, pulls: &pulls };
             let mut level = crate::mesh::Level::default();
             for (k, (segment, end)) in mesh.segments.iter().zip(&mut ends).enumerate() {
                 let first: &[usize] = if k == 0 { &mesh.first_jumps } else { &[] };
@@ -219,17 +137,19 @@ impl Equilibrium {
                     if k == 0 { head } else { self.inner_state(self.layout.spans[span].inner[k - 1].state) };
                 if derive {
                     if k == 0 {
-                        self.carry_head(span, &held, &wrench, segment, end);
+                        self.carry_head(span, &held, &wrench, segment, &acting, end);
                     } else {
                         end.seed(0);
-                        carry_columns(segment, jumps, first, load, &start, end);
+                        carry_columns(segment, &acting, first, &start, end);
                     }
                 } else {
                     end.state = start;
                     for &j in first {
                         jump(&jumps[j], load, &mut end.state);
                     }
-                    carry_plain(segment, jumps, load, &mut end.state);
+                    let lengths = carry_plain(segment, &acting, &mut end.state);
+                    end.lengths.resize(lengths.len(), [0.0; 1 + MAX_COLUMNS]);
+                    end.lengths.iter_mut().zip(&lengths).for_each(|(to, from)| to[0] = from[0]);
                 }
                 let size = |v: &[f64; 3]| V::from(*v).norm();
                 level.force = level.force.max(size(&start.force)).max(size(&end.state.force));
@@ -239,12 +159,14 @@ impl Equilibrium {
                     gaps[k] = gap(&end.state, &next);
                 }
             }
+            level.tendons = self.tendon_moment(span);
             self.levels[span] = level;
         }
         let outcome = if derive { self.eliminate(span, &ends, sink) } else { Ok(()) };
         self.start_rows(span, &held, &wrench, sink);
         let last = &ends[ends.len() - 1];
         self.end_rows(span, last, sink);
+        self.tendon_rows(span, &ends, sink);
         self.ends[span] = ends;
         self.gaps[span] = gaps;
         outcome
@@ -315,7 +237,7 @@ impl Equilibrium {
         let description = &self.lowered.spans[span];
         let wrench = wrench_of(&last.state);
         let single = slots.inner.is_empty();
-        let mut unknowns = [0usize; crate::shooting::MAX_COLUMNS];
+        let mut unknowns = [0usize; MAX_COLUMNS];
         let count = match slots.inner.last() {
             None => self.head_unknowns(span, |k, unknown| unknowns[k] = unknown),
             Some(inner) => {
@@ -445,22 +367,6 @@ impl Equilibrium {
             }
         }
     }
-}
-
-/// What a hold and a joint have in common.
-pub(crate) struct HoldRef<'a> {
-    pub coordinates: &'a crate::coordinates::Coordinates,
-    pub mismatch: &'a Twist,
-}
-
-impl<'a> HoldRef<'a> {
-    pub fn of(hold: &'a Hold) -> Self {
-        Self { coordinates: &hold.coordinates, mismatch: &hold.mismatch }
-    }
-}
-
-fn is_zero(twist: &Twist) -> bool {
-    twist.angular == V::zeros() && twist.linear == V::zeros()
 }
 
 /// `-(next ⊟ end)`: what is still missing from the step of the next state.

@@ -24,6 +24,14 @@ impl LocalLaw {
     }
 }
 
+/// Where stage `i` of `steps` steps from `a` to `b` lies: a hair inside, so that a jump at an end is seen from the
+/// piece's own side.
+pub(crate) fn stage(a: f64, b: f64, steps: usize, i: usize) -> f64 {
+    let inset = 1e-12 * (b - a);
+    let x = ((i / STAGES) as f64 + NODES[i % STAGES]) / steps as f64;
+    (a + (b - a) * x).clamp(a + inset, b - inset)
+}
+
 /// One beam of the model, ready to be cut into pieces.
 #[derive(Clone, Debug)]
 pub(crate) struct BeamLaw {
@@ -221,12 +229,7 @@ impl BeamLaw {
 
     /// The stretch from `a` to `b` (m) in equal steps, nondimensional. Nothing may be unsmooth inside.
     pub fn piece(&self, a: f64, b: f64, steps: usize) -> Piece {
-        // Stay a hair inside, so that a jump at an end is seen from the piece's own side.
-        let inset = 1e-12 * (b - a);
-        let place = |i: usize| {
-            let x = ((i / STAGES) as f64 + NODES[i % STAGES]) / steps as f64;
-            (a + (b - a) * x).clamp(a + inset, b - inset)
-        };
+        let place = |i: usize| stage(a, b, steps, i);
         let middle = 0.5 * (a + b);
         let entries = |uniform: bool| if uniform { 1 } else { steps * STAGES };
         let laws: Vec<LocalLaw> = (0..entries(self.uniform))

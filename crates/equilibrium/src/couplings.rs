@@ -1,7 +1,9 @@
 //! Residual and tangent of what couples nodes: joints, point loads, springs.
 
-use crate::assembly::{HoldRef, Sink, unit};
+use crate::assembly::{Sink, unit};
+use crate::held::HoldRef;
 use crate::lower::RopeLaw;
+use crate::shooting::{Pull, SegmentEnd};
 use crate::system::{Equilibrium, read_pose};
 use flexura_mechanics::joint::Kinematics;
 use flexura_mechanics::spring::{LinearSpring, SpringForce, constant_tension};
@@ -182,8 +184,35 @@ impl Equilibrium {
         }
     }
 
+    /// The tendons along a span at the present load and state.
+    pub(crate) fn pulls(&self, span: usize) -> Vec<Pull> {
+        let tendons = self.lowered.spans[span].tendons.iter();
+        tendons
+            .map(|&rope| Pull { tension: self.tension(rope), unknown: self.layout.ropes[rope].is_some() })
+            .collect()
+    }
+
+    /// Σ T d of the tendons along a span.
+    pub(crate) fn tendon_moment(&self, span: usize) -> f64 {
+        let span = &self.lowered.spans[span];
+        span.channels.iter().map(|c| c.reach * self.tension(span.tendons[c.tendon]).abs()).sum()
+    }
+
+    /// What the channels of a span add to the length of cables whose length is given.
+    pub(crate) fn tendon_rows(&self, span: usize, ends: &[SegmentEnd], sink: &mut Sink<'_>) {
+        for (i, &rope) in self.lowered.spans[span].tendons.iter().enumerate() {
+            let Some(slot) = self.layout.ropes[rope] else { continue };
+            // Such a span is one segment.
+            let length = &ends[0].lengths[i];
+            sink.r[slot.unknown] += length[0];
+            if sink.matrix.is_some() {
+                self.head_unknowns(span, |k, unknown| sink.add_number(slot.unknown, unknown, length[1 + k]));
+            }
+        }
+    }
+
     /// Cables: a constant tension T along every line of the course; where the length is given instead,
-    /// `ℓ = ℓ_rest + λ (ℓ_wanted - ℓ_rest)` finds T.
+    /// `ℓ = ℓ_rest + λ (ℓ_wanted - ℓ_rest)` finds T. What runs in channels is the spans' part.
     pub(crate) fn evaluate_ropes(&self, sink: &mut Sink<'_>) {
         for (index, rope) in self.lowered.ropes.iter().enumerate() {
             let tension = self.tension(index);

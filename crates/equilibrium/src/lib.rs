@@ -5,6 +5,7 @@
 //!
 //! - `lower`: model -> nodes, spans, joints, springs;
 //! - `beam`: the law of one beam at any place, as pieces that can be integrated;
+//! - `channel`: tendons in channels along beams;
 //! - `mesh`: how many steps and shooting segments a span gets;
 //! - `layout`: which number of the state and which unknown belongs to what;
 //! - `shooting`: spans carried from node to node with their derivatives;
@@ -15,18 +16,21 @@
 mod accuracy;
 mod assembly;
 mod beam;
+mod channel;
 mod coordinates;
 mod couplings;
 mod diagnose;
 mod error;
 mod extract;
 mod head;
+mod held;
 mod layout;
 mod lower;
 mod mesh;
 mod neighbour;
 mod prepare;
 mod redundancy;
+mod samples;
 mod scale;
 mod shooting;
 mod stand;

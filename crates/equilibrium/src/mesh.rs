@@ -6,13 +6,15 @@
 
 use crate::beam::BeamLaw;
 use crate::lower::Span;
-use flexura_mechanics::rod::Piece;
+use flexura_mechanics::rod::{Channel, Piece};
 
 /// A smooth stretch, then the jumps at its end (positions in the span's list).
 #[derive(Clone, Debug)]
 pub(crate) struct Stretch {
     pub s: [f64; 2],
     pub piece: Piece,
+    /// Channels of tendons along it.
+    pub channels: Vec<Channel>,
     pub jumps: Vec<usize>,
 }
 
@@ -29,6 +31,8 @@ pub(crate) struct SpanMesh {
 pub(crate) struct Level {
     pub force: f64,
     pub moment: f64,
+    /// Σ T d of the tendons: the moment by which they bend the beam itself, beside that of the whole section.
+    pub tendons: f64,
 }
 
 /// Exponent by which a segment may let its start grow.
@@ -43,23 +47,35 @@ const LARGEST_TURN: f64 = 2.2;
 impl Level {
     /// Turning per nondimensional length at this level: bending by the moment, and the rate √(F/EI) of the
     /// exponentials and sines along a loaded beam.
-    fn rate(&self, law: &BeamLaw, a: f64, b: f64) -> f64 {
+    fn rate(&self, law: &BeamLaw, span: &Span, s: [f64; 2]) -> f64 {
         let soft = law.soft();
-        let bend = law.rest_rate(a, b) + self.moment * soft;
+        let winding = span.channels.iter().filter(|c| c.holds(s)).map(|c| c.rate).fold(0.0, f64::max);
+        let bend = law.rest_rate(s[0], s[1]) + (self.moment + self.tendons) * soft + winding;
         (bend * bend + self.force * soft).sqrt()
     }
 
     pub fn segments(&self, law: &BeamLaw, span: &Span) -> usize {
+        if span.undivided {
+            return 1;
+        }
         let length = (span.s[1] - span.s[0]) / law.scale.length;
         let exponent = length * (self.force * law.soft()).sqrt();
         ((exponent / GROWTH).ceil() as usize).clamp(1, 100_000)
     }
 
     /// Steps for a stretch to have an error of about `accuracy`.
-    pub fn steps(&self, law: &BeamLaw, s: [f64; 2], accuracy: f64) -> usize {
-        let turning = (s[1] - s[0]) / law.scale.length * self.rate(law, s[0], s[1]);
+    pub fn steps(&self, law: &BeamLaw, span: &Span, s: [f64; 2], accuracy: f64) -> usize {
+        let turning = (s[1] - s[0]) / law.scale.length * self.rate(law, span, s);
         let turn = (accuracy / (CONSTANT * turning.max(1.0))).powf(0.125).min(LARGEST_TURN);
         ((turning / turn).ceil() as usize).clamp(1, MOST_STEPS)
+    }
+}
+
+impl Stretch {
+    pub fn new(law: &BeamLaw, span: &Span, s: [f64; 2], steps: usize, jumps: Vec<usize>) -> Self {
+        let channels =
+            span.channels.iter().filter(|c| c.holds(s)).map(|c| c.samples(law, s, steps)).collect();
+        Self { s, piece: law.piece(s[0], s[1], steps), channels, jumps }
     }
 }
 
@@ -74,6 +90,7 @@ impl SpanMesh {
             .collect();
         let mut cuts: Vec<f64> = law.breaks();
         cuts.extend(span.jumps.iter().map(|j| j.s));
+        cuts.extend(span.channels.iter().flat_map(|c| c.breaks()));
         cuts.extend(&ends);
         cuts.retain(|s| *s > first + tiny && *s <= last + tiny);
         cuts.sort_by(f64::total_cmp);
@@ -84,7 +101,7 @@ impl SpanMesh {
         let mut a = first;
         for b in cuts {
             let s = [a, b];
-            let stretch = Stretch { s, piece: law.piece(a, b, steps(s)), jumps: jumps_at(b) };
+            let stretch = Stretch::new(law, span, s, steps(s), jumps_at(b));
             if let Some(segment) = segments.last_mut() {
                 segment.push(stretch);
             }
@@ -105,11 +122,12 @@ impl SpanMesh {
     }
 
     /// Gives every stretch `steps(ends, present)` steps.
-    pub fn restep(&mut self, law: &BeamLaw, steps: impl Fn([f64; 2], usize) -> usize) {
+    pub fn restep(&mut self, law: &BeamLaw, span: &Span, steps: impl Fn([f64; 2], usize) -> usize) {
         for stretch in self.segments.iter_mut().flatten() {
             let wanted = steps(stretch.s, stretch.piece.steps);
             if wanted != stretch.piece.steps {
-                stretch.piece = law.piece(stretch.s[0], stretch.s[1], wanted);
+                let jumps = std::mem::take(&mut stretch.jumps);
+                *stretch = Stretch::new(law, span, stretch.s, wanted, jumps);
             }
         }
     }

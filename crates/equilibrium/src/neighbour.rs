@@ -51,6 +51,8 @@ impl Equilibrium {
             && lowered.spans.len() == self.lowered.spans.len()
             && lowered.spans.iter().zip(&self.lowered.spans).all(|(a, b)| {
                 a.determinate == b.determinate
+                    && a.tendons == b.tendons
+                    && a.channels.len() == b.channels.len()
                     && a.start.coordinates.unknowns() == b.start.coordinates.unknowns()
                     && a.end.as_ref().map(|e| e.coordinates.unknowns())
                         == b.end.as_ref().map(|e| e.coordinates.unknowns())

@@ -2,9 +2,9 @@
 
 use crate::beam::BeamLaw;
 use crate::layout::Layout;
-use crate::lower::{Lowered, Span};
-use crate::mesh::{Level, SpanMesh};
-use crate::shooting::{Plain, SegmentEnd, carry_plain, jump};
+use crate::lower::{Lowered, RopeLaw, Span};
+use crate::mesh::{Level, SpanMesh, Stretch};
+use crate::shooting::{Acting, Plain, SegmentEnd, carry_plain, carry_through, jump};
 use crate::system::{Counts, Equilibrium, write_pose};
 use flexura_mechanics::joint::MAX_CONFIGURATION;
 use flexura_nonlinear::{BLOCK, Chain};
@@ -30,8 +30,9 @@ impl Equilibrium {
         let first_time = self.meshes.is_empty();
         self.levels = self.lowered.spans.iter().map(|span| self.expected_level(span)).collect();
         self.expected.clone_from(&self.levels);
+        let forced = self.forced_segments.unwrap_or(1);
         let counts: Vec<usize> =
-            (0..self.lowered.spans.len()).map(|_| self.forced_segments.unwrap_or(1)).collect();
+            self.lowered.spans.iter().map(|span| if span.undivided { 1 } else { forced }).collect();
         let fits = !first_time && counts.iter().zip(&self.meshes).all(|(c, m)| *c == m.segments.len());
         if fits {
             self.restep(self.accuracy, false);
@@ -82,6 +83,11 @@ impl Equilibrium {
                 .map(|l| total(&l.dead_force) + total(&l.section_force))
                 .fold(0.0, f64::max);
         }
+        for channel in &span.channels {
+            if let RopeLaw::Tension(tension) = self.lowered.ropes[span.tendons[channel.tendon]].law {
+                level.tendons += tension * channel.reach;
+            }
+        }
         level
     }
 
@@ -95,7 +101,7 @@ impl Equilibrium {
             .zip(&self.levels)
             .map(|((span, &count), level)| {
                 let law = &self.lowered.beams[span.beam];
-                SpanMesh::build(law, span, count, |s| level.steps(law, s, accuracy))
+                SpanMesh::build(law, span, count, |s| level.steps(law, span, s, accuracy))
             })
             .collect();
         self.layout = Layout::new(&self.lowered, &self.meshes);
@@ -115,8 +121,8 @@ impl Equilibrium {
         self.accuracy = accuracy;
         for ((span, mesh), level) in self.lowered.spans.iter().zip(&mut self.meshes).zip(&self.levels) {
             let law: &BeamLaw = &self.lowered.beams[span.beam];
-            mesh.restep(law, |s, present| {
-                let wanted = level.steps(law, s, accuracy);
+            mesh.restep(law, span, |s, present| {
+                let wanted = level.steps(law, span, s, accuracy);
                 if grow { wanted.max(present) } else { wanted }
             });
         }
@@ -127,7 +133,7 @@ impl Equilibrium {
     pub(crate) fn multiply_steps(&mut self, factor: f64) {
         for (span, mesh) in self.lowered.spans.iter().zip(&mut self.meshes) {
             let law: &BeamLaw = &self.lowered.beams[span.beam];
-            mesh.restep(law, |_, present| ((present as f64 * factor).ceil() as usize).max(present + 1));
+            mesh.restep(law, span, |_, present| ((present as f64 * factor).ceil() as usize).max(present + 1));
         }
         self.sum_known_forces();
     }
@@ -155,16 +161,19 @@ impl Equilibrium {
         } else {
             self.inner_state(self.layout.spans[span].inner[segment - 1].state)
         };
-        let law = &self.lowered.beams[self.lowered.spans[span].beam];
+        let description = &self.lowered.spans[span];
+        let law = &self.lowered.beams[description.beam];
+        let pulls = self.pulls(span);
+        let acting = Acting { jumps, load: self.load, pulls: &pulls };
         for stretch in &mesh.segments[segment] {
             if stretch.s[1] <= s {
-                carry_plain(std::slice::from_ref(stretch), jumps, self.load, &mut state);
+                carry_plain(std::slice::from_ref(stretch), &acting, &mut state);
             } else {
                 let part = (s - stretch.s[0]) / (stretch.s[1] - stretch.s[0]);
                 if part > 0.0 {
                     let steps = ((stretch.piece.steps as f64 * part).ceil() as usize).max(1);
-                    let piece = law.piece(stretch.s[0], s, steps);
-                    flexura_mechanics::rod::advance(&piece, self.load, &mut state);
+                    let part = Stretch::new(law, description, [stretch.s[0], s], steps, Vec::new());
+                    carry_through(&part, &acting, &mut state);
                 }
                 break;
             }

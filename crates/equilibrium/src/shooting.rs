@@ -3,15 +3,19 @@
 //! The head of a span depends on at most eighteen unknowns: six of the node that carries it, up to six
 //! coordinates of its hold, six of its start wrench. Of these the kernel carries at most the twelve of a start
 //! pose and start wrench, from which the others follow; later segments start from a state of twelve unknowns.
-//! The kernel carries as many derivative lanes as there are, rounded up to four, eight, twelve or sixteen.
+//! A tendon whose length is given adds its tension. The kernel carries as many derivative lanes as there are, rounded
+//! up to four, eight, twelve, sixteen or twenty-four.
 
 use crate::lower::Jump;
 use crate::mesh::Stretch;
-use flexura_mechanics::rod::{RodState, advance};
+use flexura_mechanics::rod::{RodState, advance, advance_tendons};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, Wrench};
 
-/// Most unknowns that the start of a segment depends on.
-pub(crate) const MAX_COLUMNS: usize = 18;
+/// Most tendons of unknown tension along one span: with the twelve numbers of a start they fill the widest kernel.
+pub(crate) const MAX_TENSIONS: usize = 11;
+
+/// Most unknowns that a segment depends on.
+pub(crate) const MAX_COLUMNS: usize = 18 + MAX_TENSIONS;
 
 /// Derivative of (turning, position, force, moment) along one unknown.
 pub(crate) type Column = [f64; 12];
@@ -25,6 +29,24 @@ pub(crate) struct SegmentEnd {
     pub state: Plain,
     pub columns: [Column; MAX_COLUMNS],
     pub count: usize,
+    /// Length of each of the span's tendons along the segment, with its derivatives from place 1 on.
+    pub lengths: Vec<[f64; 1 + MAX_COLUMNS]>,
+}
+
+/// A tendon's tension, and whether it is an unknown.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pull {
+    pub tension: f64,
+    pub unknown: bool,
+}
+
+/// What acts along a span besides its distributed loads.
+#[derive(Clone, Copy)]
+pub(crate) struct Acting<'a> {
+    pub jumps: &'a [Jump],
+    pub load: f64,
+    /// Of each of the span's tendons.
+    pub pulls: &'a [Pull],
 }
 
 impl SegmentEnd {
@@ -38,7 +60,7 @@ impl SegmentEnd {
     }
 
     pub fn new() -> Self {
-        Self { state: Plain::origin(), columns: [[0.0; 12]; MAX_COLUMNS], count: 0 }
+        Self { state: Plain::origin(), columns: [[0.0; 12]; MAX_COLUMNS], count: 0, lengths: Vec::new() }
     }
 }
 
@@ -84,25 +106,46 @@ pub(crate) fn jump<const W: usize>(jump: &Jump, load: f64, state: &mut RodState<
     }
 }
 
-fn carry<const W: usize>(stretches: &[Stretch], jumps: &[Jump], load: f64, state: &mut RodState<W>) {
-    for stretch in stretches {
+/// Takes the state along one stretch, without what jumps at its end, and adds to `lengths` what each tendon measures.
+/// `tensions` and `lengths` run parallel to the span's tendons.
+fn carry_stretch<const W: usize>(
+    stretch: &Stretch,
+    load: f64,
+    tensions: &[[f64; W]],
+    state: &mut RodState<W>,
+    lengths: &mut [[f64; W]],
+) {
+    if stretch.channels.is_empty() {
         advance(&stretch.piece, load, state);
-        for &j in &stretch.jumps {
-            jump(&jumps[j], load, state);
-        }
+    } else {
+        advance_tendons(&stretch.piece, &stretch.channels, tensions, load, state, lengths);
     }
 }
 
-/// Values only.
-pub(crate) fn carry_plain(stretches: &[Stretch], jumps: &[Jump], load: f64, state: &mut Plain) {
-    carry(stretches, jumps, load, state);
+/// Values only, along one stretch, without what jumps at its end.
+pub(crate) fn carry_through(stretch: &Stretch, acting: &Acting<'_>, state: &mut Plain) {
+    let tensions: Vec<[f64; 1]> = acting.pulls.iter().map(|pull| [pull.tension]).collect();
+    let mut lengths = vec![[0.0; 1]; tensions.len()];
+    carry_stretch(stretch, acting.load, &tensions, state, &mut lengths);
+}
+
+/// Values only, along stretches with what jumps at their ends; the lengths of the tendons.
+pub(crate) fn carry_plain(stretches: &[Stretch], acting: &Acting<'_>, state: &mut Plain) -> Vec<[f64; 1]> {
+    let tensions: Vec<[f64; 1]> = acting.pulls.iter().map(|pull| [pull.tension]).collect();
+    let mut lengths = vec![[0.0; 1]; tensions.len()];
+    for stretch in stretches {
+        carry_stretch(stretch, acting.load, &tensions, state, &mut lengths);
+        for &j in &stretch.jumps {
+            jump(&acting.jumps[j], acting.load, state);
+        }
+    }
+    lengths
 }
 
 fn carry_lanes<const W: usize>(
     stretches: &[Stretch],
-    jumps: &[Jump],
+    acting: &Acting<'_>,
     first: &[usize],
-    load: f64,
     start: &Plain,
     end: &mut SegmentEnd,
 ) {
@@ -118,10 +161,26 @@ fn carry_lanes<const W: usize>(
             lanes.d[i][1 + j] = column[i];
         }
     }
-    for &j in first {
-        jump(&jumps[j], load, &mut lanes);
+    // Unknown tensions come last.
+    let mut lane = 1 + end.count - acting.unknown_tensions();
+    let mut tensions = vec![[0.0; W]; acting.pulls.len()];
+    for (tension, pull) in tensions.iter_mut().zip(acting.pulls) {
+        tension[0] = pull.tension;
+        if pull.unknown {
+            tension[lane] = 1.0;
+            lane += 1;
+        }
     }
-    carry(stretches, jumps, load, &mut lanes);
+    let mut lengths = vec![[0.0; W]; acting.pulls.len()];
+    for &j in first {
+        jump(&acting.jumps[j], acting.load, &mut lanes);
+    }
+    for stretch in stretches {
+        carry_stretch(stretch, acting.load, &tensions, &mut lanes, &mut lengths);
+        for &j in &stretch.jumps {
+            jump(&acting.jumps[j], acting.load, &mut lanes);
+        }
+    }
     end.state = Plain {
         rotation: lanes.rotation,
         position: lanes.position,
@@ -134,21 +193,37 @@ fn carry_lanes<const W: usize>(
             column[i] = lanes.d[i][1 + j];
         }
     }
+    end.lengths.clear();
+    for lanes in &lengths {
+        let mut length = [0.0; 1 + MAX_COLUMNS];
+        length[..=end.count].copy_from_slice(&lanes[..=end.count]);
+        end.lengths.push(length);
+    }
 }
 
-/// Values and derivatives: `end.columns[..end.count]` hold the start's derivatives, then the end's.
+/// Values and derivatives: `end.columns[..end.count]` hold the start's derivatives, then the end's. Those along the
+/// unknown tensions of tendons are put behind them.
 pub(crate) fn carry_columns(
     stretches: &[Stretch],
-    jumps: &[Jump],
+    acting: &Acting<'_>,
     first: &[usize],
-    load: f64,
     start: &Plain,
     end: &mut SegmentEnd,
 ) {
+    let unknown = acting.unknown_tensions();
+    end.columns[end.count..end.count + unknown].fill([0.0; 12]);
+    end.count += unknown;
     match end.count {
-        0..=3 => carry_lanes::<4>(stretches, jumps, first, load, start, end),
-        4..=7 => carry_lanes::<8>(stretches, jumps, first, load, start, end),
-        8..=11 => carry_lanes::<12>(stretches, jumps, first, load, start, end),
-        _ => carry_lanes::<16>(stretches, jumps, first, load, start, end),
+        0..=3 => carry_lanes::<4>(stretches, acting, first, start, end),
+        4..=7 => carry_lanes::<8>(stretches, acting, first, start, end),
+        8..=11 => carry_lanes::<12>(stretches, acting, first, start, end),
+        12..=15 => carry_lanes::<16>(stretches, acting, first, start, end),
+        _ => carry_lanes::<24>(stretches, acting, first, start, end),
+    }
+}
+
+impl Acting<'_> {
+    fn unknown_tensions(&self) -> usize {
+        self.pulls.iter().filter(|pull| pull.unknown).count()
     }
 }

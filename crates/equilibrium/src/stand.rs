@@ -5,7 +5,7 @@ use crate::mesh::Level;
 use crate::system::{Equilibrium, write_pose};
 use flexura_mechanics::joint::Kinematics;
 use flexura_nonlinear::System;
-use flexura_solution::{BeamSample, BeamSolution, Solution};
+use flexura_solution::{BeamSample, Solution};
 use flexura_spatial::{Pose, Vector3, Wrench};
 
 impl Equilibrium {
@@ -18,7 +18,7 @@ impl Equilibrium {
             let Some(beam) = solution.beams.get(span.beam) else { continue };
             let mut level = Level::default();
             for sample in beam.samples.iter().filter(|s| s.s >= span.s[0] && s.s <= span.s[1]) {
-                let wrench = scale.wrench_in(&sample.wrench);
+                let wrench = scale.wrench_in(&self.whole(span.beam, sample, solution));
                 level.force = level.force.max(wrench.force.norm());
                 level.moment = level.moment.max(wrench.moment.norm());
             }
@@ -44,7 +44,7 @@ impl Equilibrium {
             let pose = match node.origin {
                 NodeOrigin::Body(i) => solution.bodies.get(i).map(|pose| scale.pose_in(pose)),
                 NodeOrigin::Hub { beam, s } => {
-                    solution.beams.get(beam).and_then(|b| at(b, s)).map(|(pose, _)| scale.pose_in(&pose))
+                    self.at(solution, beam, s).map(|(pose, _)| scale.pose_in(&pose))
                 }
             };
             let pose = pose.unwrap_or(node.initial);
@@ -53,10 +53,12 @@ impl Equilibrium {
         }
         let pose_of = |node: Option<usize>| node.map_or(Pose::identity(), |n| poses[n]);
         for (span, slots) in self.lowered.spans.iter().zip(&self.layout.spans) {
-            let Some(beam) = solution.beams.get(span.beam) else { continue };
             let ends = [(0, Some(&span.start), &slots.start), (1, span.end.as_ref(), &slots.end)];
             for (which, hold, slot) in ends {
-                let (Some(hold), Some((pose, wrench))) = (hold, at(beam, span.s[which])) else { continue };
+                let (Some(hold), Some((pose, wrench))) = (hold, self.at(solution, span.beam, span.s[which]))
+                else {
+                    continue;
+                };
                 let fixed = pose_of(hold.carrier.node) * hold.carrier.frame;
                 let q = hold.coordinates.joint.nearest(&(fixed.inverse() * scale.pose_in(&pose)));
                 x[slot.state..slot.state + q.len()].copy_from_slice(&q);
@@ -67,7 +69,7 @@ impl Equilibrium {
             for (k, inner) in slots.inner.iter().enumerate() {
                 let index = self.layout.spans.iter().position(|s| std::ptr::eq(s, slots)).unwrap_or(0);
                 let s = self.meshes[index].start_of(k + 1);
-                if let Some((pose, wrench)) = at(beam, s) {
+                if let Some((pose, wrench)) = self.at(solution, span.beam, s) {
                     write_pose(&mut x, inner.state, &scale.pose_in(&pose));
                     write_wrench(&mut x, inner.state + 7, &scale.wrench_in(&wrench));
                 }
@@ -91,7 +93,8 @@ impl Equilibrium {
                 }),
                 JointOrigin::Hold { beam, start } => solution.beams.get(beam).and_then(|b| {
                     let sample = if start { b.samples.first() } else { b.samples.last() }?;
-                    Some(if start { -sample.wrench } else { sample.wrench })
+                    let whole = self.whole(beam, sample, solution);
+                    Some(if start { -whole } else { whole })
                 }),
             };
             let slot = slots.coordinates.state;
@@ -112,6 +115,43 @@ impl Equilibrium {
         }
         self.x = x;
         self.set_load(1.0);
+    }
+
+    /// The wrench of the beam and the tendons in its channels together at a sample; SI.
+    fn whole(&self, beam: usize, sample: &BeamSample, solution: &Solution) -> Wrench {
+        let mut whole = sample.wrench;
+        let spans = self.lowered.spans.iter().filter(|span| span.beam == beam);
+        for (span, channel) in spans.flat_map(|span| span.channels.iter().map(move |c| (span, c))) {
+            // A sample shows what is before it, the first one what is behind.
+            let before = sample.s > channel.s[0] || sample.s == 0.0;
+            let Some(cable) = solution.cables.get(span.tendons[channel.tendon]) else { continue };
+            if channel.s[0] <= sample.s && sample.s <= channel.s[1] && before {
+                let place = channel.at(sample.s);
+                let offset = Vector3::new(0.0, place.offset[0], place.offset[1]);
+                let slope = Vector3::new(0.0, place.slope[0], place.slope[1]);
+                let along = Vector3::x() + sample.strain + sample.curvature.cross(&offset) + slope;
+                let pull = along.normalize() * cable.tension;
+                whole = whole + Wrench::new(pull, offset.cross(&pull)).rotated(&sample.pose.rotation);
+            }
+        }
+        whole
+    }
+
+    /// Pose and whole wrench at `s` (m), by straight lines between the samples; SI.
+    fn at(&self, solution: &Solution, beam: usize, s: f64) -> Option<(Pose, Wrench)> {
+        let samples = &solution.beams.get(beam)?.samples;
+        let after = samples.partition_point(|sample| sample.s <= s);
+        let first = samples.get(after.saturating_sub(1))?;
+        let second = samples.get(after).unwrap_or(first);
+        let width = second.s - first.s;
+        let t = if width > 0.0 { (s - first.s) / width } else { 0.0 };
+        let mix = |a: Vector3<f64>, b: Vector3<f64>| a * (1.0 - t) + b * t;
+        let between = (first.pose.rotation.inverse() * second.pose.rotation).powf(t);
+        let (a, b) = (self.whole(beam, first, solution), self.whole(beam, second, solution));
+        Some((
+            Pose::new(first.pose.rotation * between, mix(first.pose.position, second.pose.position)),
+            Wrench::new(mix(a.force, b.force), mix(a.moment, b.moment)),
+        ))
     }
 
     /// Wrenches on every node besides the loads, to push the mechanism off its path: `part` of them acts.
@@ -158,19 +198,4 @@ impl Equilibrium {
 fn write_wrench(x: &mut [f64], at: usize, wrench: &Wrench) {
     x[at..at + 3].copy_from_slice(wrench.force.as_slice());
     x[at + 3..at + 6].copy_from_slice(wrench.moment.as_slice());
-}
-
-/// Pose and wrench at `s` (m), by straight lines between the samples; SI.
-fn at(beam: &BeamSolution, s: f64) -> Option<(Pose, Wrench)> {
-    let after = beam.samples.partition_point(|sample| sample.s <= s);
-    let first = beam.samples.get(after.saturating_sub(1))?;
-    let second = beam.samples.get(after).unwrap_or(first);
-    let width = second.s - first.s;
-    let t = if width > 0.0 { (s - first.s) / width } else { 0.0 };
-    let mix = |pick: fn(&BeamSample) -> Vector3<f64>| pick(first) * (1.0 - t) + pick(second) * t;
-    let between = (first.pose.rotation.inverse() * second.pose.rotation).powf(t);
-    Some((
-        Pose::new(first.pose.rotation * between, mix(|sample| sample.pose.position)),
-        Wrench::new(mix(|sample| sample.wrench.force), mix(|sample| sample.wrench.moment)),
-    ))
 }

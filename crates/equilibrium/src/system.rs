@@ -201,7 +201,7 @@ impl Equilibrium {
                 }
             }
         }
-        let largest = self.levels.iter().map(|l| l.force).fold(1.0, f64::max);
+        let largest = self.levels.iter().map(|l| l.force.max(l.tendons)).fold(1.0, f64::max);
         if relative {
             for slots in &self.layout.joints {
                 let at = slots.wrench.unknown;

@@ -182,6 +182,31 @@ fn add_mounts_couplings_and_cables(m: &mut Model) {
         ];
         m.cables.push(Cable { name: name.into(), route, law });
     }
+    // Tendons: from the ground through two channels to a body, and anchored in channels, straight and winding.
+    let function = |text: &str| {
+        Profile::Function(flexura_expression::Function::parse(text, "s").expect("a function of s"))
+    };
+    let winding = || [function("0.1 * cos(3 * s)"), function("0.08 * sin(2 * s) + 0.02")];
+    let channel = |beam: usize, from: f64, to: f64, offset| Guide::Channel {
+        beam: BeamId(beam),
+        between: [At::Fraction(from), At::Fraction(to)],
+        offset,
+    };
+    let straight = |y: f64, z: f64| [Profile::Constant(y), Profile::Constant(z)];
+    for (name, law) in [("pulled tendon", CableLaw::Tension(0.7)), ("held tendon", CableLaw::Length(3.0))] {
+        let route = vec![
+            guide(Mount::Ground, 0.5),
+            channel(0, 0.1, 0.55, winding()),
+            channel(0, 0.55, 0.9, winding()),
+            channel(1, 0.8, 0.3, straight(0.1, -0.07)),
+            guide(body(1), 0.3),
+        ];
+        m.cables.push(Cable { name: name.into(), route, law });
+    }
+    for (beam, law) in [(2, CableLaw::Length(0.9)), (5, CableLaw::Length(0.8)), (5, CableLaw::Tension(0.4))] {
+        let route = vec![channel(beam, 0.0, 1.0, winding())];
+        m.cables.push(Cable { name: format!("anchored {}", m.cables.len()), route, law });
+    }
 }
 
 /// A state away from every solution, the same at each call.
@@ -195,6 +220,9 @@ fn disturbed(problem: &mut Equilibrium, size: f64) {
 fn the_tangent_is_the_derivative_of_the_residual() {
     let mut problem = Equilibrium::new(&everything()).unwrap();
     disturbed(&mut problem, 0.05);
+    for slot in problem.layout.ropes.clone().into_iter().flatten() {
+        problem.x[slot.state] = 0.9;
+    }
     problem.evaluate(true).unwrap();
     let n = problem.layout.interface;
     assert_eq!(n, problem.unknowns(), "one segment a span");

@@ -62,6 +62,23 @@ impl Profile {
         }
     }
 
+    /// The derivative by arc length at `s`; at a kink that of the part beyond. NaN for a notch, which has none here.
+    pub fn slope(&self, s: f64, length: f64) -> f64 {
+        match self {
+            Profile::Constant(_) => 0.0,
+            Profile::Function(function) => function.jet(s)[1],
+            Profile::Notch(_) => f64::NAN,
+            Profile::Table { at, value } => {
+                let upper = at.partition_point(|row| row.arc_length(length) <= s);
+                if upper == 0 || upper == at.len() {
+                    return 0.0;
+                }
+                let (a, b) = (at[upper - 1].arc_length(length), at[upper].arc_length(length));
+                (value[upper] - value[upper - 1]) / (b - a)
+            }
+        }
+    }
+
     /// The value if it is the same everywhere.
     pub fn as_constant(&self) -> Option<f64> {
         match self {

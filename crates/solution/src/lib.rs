@@ -119,7 +119,8 @@ pub struct BeamSample {
     pub pose: Pose,
     /// Pose of the section in the global frame before anything was loaded.
     pub rest_pose: Pose,
-    /// Internal force (N, global) and moment (N·m, global) at the section's axis.
+    /// Internal force (N, global) and moment (N·m, global) of the beam itself at the section's axis. What tendons in its
+    /// channels carry is not part of it: where one is anchored, its pull is a load on the beam.
     pub wrench: Wrench,
     /// k1, k2, k3 of the deformed beam, 1/m.
     pub curvature: Vector3<f64>,

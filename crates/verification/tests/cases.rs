@@ -53,6 +53,7 @@ conforms!(
     clamped_clamped,
     four_bar_balance,
     four_bar,
+    six_rod_robot,
     ends_cantilever,
     ends_clamped,
     ends_pinned,
@@ -69,6 +70,9 @@ conforms!(
     leaf_four_bar_far,
     cartwheel_far,
     bistable_far,
+    tendon_arc,
+    tendon_helix,
+    tendon_robot,
 );
 
 #[test]

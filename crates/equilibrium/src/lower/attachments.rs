@@ -1,11 +1,11 @@
-//! Joints, couplings, springs and cables between nodes.
+//! Joints, couplings and springs between nodes.
 
-use super::{Carrier, Gear, JointOrigin, Link, Lowered, NodeJoint, Rope, RopeLaw, SNUG, length_text};
+use super::{Carrier, Gear, JointOrigin, Link, Lowered, NodeJoint, SNUG, length_text};
 use crate::coordinates::Coordinates;
 use crate::error::ProblemError;
 use flexura_mechanics::joint::Kinematics;
 use flexura_mechanics::spring::LinearSpring;
-use flexura_model::{Attachment, Cable, CableLaw, Coupling, Guide, Model, Spring, SpringLaw};
+use flexura_model::{Attachment, Coupling, Model, Spring, SpringLaw};
 use flexura_spatial::Vector3;
 
 pub(super) fn lower_joint(model: &Model, lowered: &mut Lowered, index: usize) {
@@ -77,11 +77,11 @@ pub(super) fn lower_coupling(
     Ok(())
 }
 
-fn place(lowered: &Lowered, attachment: &Attachment) -> (Option<usize>, Vector3<f64>) {
+pub(super) fn place(lowered: &Lowered, attachment: &Attachment) -> (Option<usize>, Vector3<f64>) {
     (lowered.node_of(attachment.mount), attachment.point / lowered.scale.length)
 }
 
-fn distance(lowered: &Lowered, ends: &[(Option<usize>, Vector3<f64>); 2]) -> f64 {
+pub(super) fn distance(lowered: &Lowered, ends: &[(Option<usize>, Vector3<f64>); 2]) -> f64 {
     let [a, b] = ends.map(|(node, point)| lowered.initial(node).point(&point));
     (b - a).norm()
 }
@@ -103,40 +103,5 @@ pub(super) fn lower_spring(lowered: &mut Lowered, spring: &Spring) -> Result<(),
         rest_length: rest_length.map_or(initial_length, |l| l / scale.length),
     };
     lowered.springs.push(Link { ends, law, initial_length });
-    Ok(())
-}
-
-pub(super) fn lower_cable(lowered: &mut Lowered, cable: &Cable) -> Result<(), ProblemError> {
-    let scale = lowered.scale;
-    let path = format!("cable.{}", cable.name);
-    let mut points = Vec::new();
-    for guide in &cable.route {
-        match guide {
-            Guide::Point(attachment) => points.push(place(lowered, attachment)),
-            Guide::Channel { .. } => todo!(),
-        }
-    }
-    let lines: Vec<_> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
-    let mut length = 0.0;
-    for (i, line) in lines.iter().enumerate() {
-        let distance = distance(lowered, line);
-        if distance < 1e-12 {
-            return Err(ProblemError::new(
-                format!("{path}.route"),
-                format!(
-                    "the guides {} and {} coincide, so that the cable has no direction between them",
-                    i + 1,
-                    i + 2
-                ),
-                "move one of them",
-            ));
-        }
-        length += distance;
-    }
-    let law = match cable.law {
-        CableLaw::Tension(tension) => RopeLaw::Tension(tension / scale.force),
-        CableLaw::Length(wanted) => RopeLaw::Length([length, wanted / scale.length]),
-    };
-    lowered.ropes.push(Rope { lines, law });
     Ok(())
 }

@@ -6,9 +6,11 @@
 //! acts on nodes, and a span only ever carries loads that depend on its own section.
 
 mod attachments;
+mod cables;
 mod spans;
 
 use crate::beam::BeamLaw;
+use crate::channel::{Route, TendonChannel};
 use crate::coordinates::Coordinates;
 use crate::error::ProblemError;
 use crate::scale::Scale;
@@ -68,6 +70,12 @@ pub(crate) struct Span {
     pub jumps: Vec<Jump>,
     /// The internal force is known everywhere: the far end is free and every load dead.
     pub determinate: bool,
+    /// Cables that run in channels along it.
+    pub tendons: Vec<usize>,
+    pub channels: Vec<TendonChannel>,
+    /// A tendon's tension is unknown, and its length along the span an equation: the span is one segment, so that the
+    /// length depends on its head alone.
+    pub undivided: bool,
 }
 
 /// What a joint between two nodes stands for.
@@ -119,11 +127,22 @@ pub(crate) enum RopeLaw {
     Length([f64; 2]),
 }
 
-/// A cable: straight lines between points on nodes, all under one tension.
+/// A cable: straight lines between points on nodes, and channels, all under one tension.
 #[derive(Clone, Debug)]
 pub(crate) struct Rope {
     pub lines: Vec<[(Option<usize>, Vector3<f64>); 2]>,
     pub law: RopeLaw,
+    /// From its first anchor to its last.
+    pub course: Vec<Course>,
+}
+
+/// A part of a cable's course.
+#[derive(Clone, Debug)]
+pub(crate) enum Course {
+    /// Position in [`Rope::lines`].
+    Line(usize),
+    /// Along a beam, between two arc lengths (m) in the order in which the cable meets them.
+    Channel { beam: usize, between: [f64; 2], route: Route },
 }
 
 /// The lowered model; numbers nondimensional but for arc lengths.
@@ -199,7 +218,7 @@ pub(crate) fn lower(
         attachments::lower_joint(model, &mut lowered, i);
     }
     for i in 0..model.beams.len() {
-        spans::lower_beam(model, &mut lowered, i);
+        spans::lower_beam(model, &mut lowered, i)?;
     }
     for coupling in &model.couplings {
         attachments::lower_coupling(model, &mut lowered, coupling)?;
@@ -208,7 +227,7 @@ pub(crate) fn lower(
         attachments::lower_spring(&mut lowered, spring)?;
     }
     for cable in &model.cables {
-        attachments::lower_cable(&mut lowered, cable)?;
+        cables::lower_cable(&mut lowered, cable)?;
     }
     Ok(lowered)
 }

@@ -1,5 +1,6 @@
 //! Beams -> hubs and spans.
 
+use super::cables;
 use super::{
     Carrier, Hold, JointOrigin, Jump, Lowered, Node, NodeJoint, NodeOrigin, SNUG, Span, length_text, near,
     point_load,
@@ -9,7 +10,7 @@ use crate::error::ProblemError;
 use crate::scale::Scale;
 use flexura_mechanics::joint::Kinematics;
 use flexura_mechanics::load::PointLoad;
-use flexura_model::{BeamPoint, End, Guide, JointKind, JointLaw, LoadTarget, Model, Mount};
+use flexura_model::{BeamPoint, End, JointKind, JointLaw, LoadTarget, Model, Mount};
 use flexura_spatial::{Pose, Twist, Vector3, Wrench};
 
 /// Where every beam lies in the undeformed mechanism. A beam held by another beam follows from it.
@@ -82,6 +83,7 @@ fn laid_from<'a>(start: Option<&'a End>, end: Option<&'a End>) -> Option<(&'a En
 /// Puts hubs where something holds on to a beam, where a motion is asked for, and at free starts.
 pub(super) fn place_hubs(model: &Model, lowered: &mut Lowered, probes: &[BeamPoint]) {
     let mut places: Vec<Vec<f64>> = vec![Vec::new(); model.beams.len()];
+    let lengths: Vec<f64> = lowered.beams.iter().map(|law| law.length).collect();
     {
         let mut add = |point: &BeamPoint| {
             places[point.beam.0].push(point.at.arc_length(lowered.beams[point.beam.0].length));
@@ -103,11 +105,7 @@ pub(super) fn place_hubs(model: &Model, lowered: &mut Lowered, probes: &[BeamPoi
             mount(&spring.to.mount);
         }
         for cable in &model.cables {
-            for guide in &cable.route {
-                if let Guide::Point(attachment) = guide {
-                    mount(&attachment.mount);
-                }
-            }
+            cables::mounts(cable, &lengths).iter().for_each(&mut mount);
         }
         probes.iter().for_each(&mut add);
     }
@@ -128,7 +126,7 @@ pub(super) fn place_hubs(model: &Model, lowered: &mut Lowered, probes: &[BeamPoi
     }
 }
 
-pub(super) fn lower_beam(model: &Model, lowered: &mut Lowered, beam: usize) {
+pub(super) fn lower_beam(model: &Model, lowered: &mut Lowered, beam: usize) -> Result<(), ProblemError> {
     let description = &model.beams[beam];
     let length = lowered.beams[beam].length;
     let scale = lowered.scale;
@@ -187,10 +185,22 @@ pub(super) fn lower_beam(model: &Model, lowered: &mut Lowered, beam: usize) {
             .collect();
         let law = &lowered.beams[beam];
         let determinate = end.is_none() && !law.follows() && inside.iter().all(|j| !j.load.follows());
-        let mut span = Span { beam, s: [a, b], start, end, jumps: inside, determinate };
+        let mut span = Span {
+            beam,
+            s: [a, b],
+            start,
+            end,
+            jumps: inside,
+            determinate,
+            tendons: Vec::new(),
+            channels: Vec::new(),
+            undivided: false,
+        };
+        cables::thread(model, law, &mut span)?;
         hold_spin(lowered, &mut span, &path);
         lowered.spans.push(span);
     }
+    Ok(())
 }
 
 fn weld(scale: &Scale, node: usize) -> Hold {

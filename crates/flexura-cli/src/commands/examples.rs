@@ -27,6 +27,7 @@ const MODELS: &[(&str, &str)] = &bundled![
     "parallelogram_stage",
     "four_bar",
     "sensor_clamp",
+    "tendon_robot",
 ];
 
 pub fn run(arguments: &ExamplesArguments) -> Result<(), Failure> {

@@ -3,7 +3,7 @@
 use super::Issues;
 use super::beam::known_length;
 use super::section::{check_table, worst};
-use crate::{Attachment, CableLaw, Guide, LoadTarget, Model, Mount, SpringLaw};
+use crate::{Attachment, CableLaw, Guide, LoadTarget, Model, Mount, Profile, SpringLaw};
 
 /// Where the point of an attachment is written.
 fn point_path(attachment: &Attachment, path: &str) -> String {
@@ -60,6 +60,10 @@ impl Model {
                 for (k, profile) in offset.iter().enumerate() {
                     let path = format!("{path}.offset[{k}]");
                     check_table(profile, &path, issues);
+                    if matches!(profile, Profile::Notch(_)) {
+                        issues.add(path, "a channel cannot follow a notch");
+                        continue;
+                    }
                     if let Some((s, value)) = worst(profile, length, |value| value.is_finite()) {
                         issues.add(path, format!("must be finite along the beam, is {value} at s = {s} m"));
                     }

@@ -194,6 +194,10 @@ fn cables_need_a_way_and_never_push() {
     assert_eq!(with(vec![channel(0.3, 1.3)], pull), ["cable.flexor.route[0].to"]);
     let lost = point(Mount::Body(BodyId(0)));
     assert_eq!(with(vec![lost, beam(0.5)], pull), ["cable.flexor.route[0].body"]);
+    let notch = Notch { shape: NotchShape::Circular { radius: 0.01 }, thickness: 0.001, center: None };
+    let Guide::Channel { beam, between, .. } = channel(0.0, 1.0) else { panic!() };
+    let notched = Guide::Channel { beam, between, offset: [0.0.into(), Profile::Notch(notch)] };
+    assert_eq!(with(vec![notched], pull), ["cable.flexor.route[0].offset[1]"]);
 }
 
 #[test]

@@ -11,10 +11,12 @@ mod flexures;
 mod follower;
 mod four_bar;
 mod helix_wrench;
+mod robot;
 mod roll_up;
 mod spring;
 mod strip;
 mod taper;
+mod tendons;
 
 use crate::Case;
 
@@ -32,10 +34,12 @@ pub fn cases() -> Vec<Case> {
         &taper::CASES,
         &clamped_clamped::CASES,
         &four_bar::CASES,
+        &robot::CASES,
         &ends::CASES,
         &deep_arch::CASES,
         &flexure_order::CASES,
         &flexures::CASES,
+        &tendons::CASES,
     ]
     .concat()
 }

@@ -1,0 +1,235 @@
+//! Samples along beams and the courses of cables, in SI units.
+
+use crate::channel::TendonChannel;
+use crate::extract::GAUSS;
+use crate::lower::{Course, Span};
+use crate::mesh::Stretch;
+use crate::shooting::{Acting, Plain, carry_plain, carry_through, jump, pose_of, wrench_of};
+use crate::system::Equilibrium;
+use flexura_mechanics::rod::{ChannelSample, Coupled, rod_share};
+use flexura_model::ProbeTarget;
+use flexura_solution::{BeamSample, BeamSolution, CableSolution};
+use flexura_spatial::{Vector3, Wrench};
+
+/// Channels along a stretch, with the tension (N) in each.
+type Threads<'a> = [(&'a TendonChannel, f64)];
+
+impl Equilibrium {
+    pub(crate) fn cables(&self, beams: &[BeamSolution]) -> Vec<CableSolution> {
+        let scale = self.lowered.scale;
+        let channels = self.channel_lengths();
+        let mut cables = Vec::with_capacity(self.lowered.ropes.len());
+        for (index, rope) in self.lowered.ropes.iter().enumerate() {
+            let mut course: Vec<Vector3<f64>> = Vec::new();
+            let mut add = |point: Vector3<f64>| {
+                // Where a line meets a channel both give the same point, but for round-off.
+                if course.last().is_none_or(|last| (last - point).norm() > 1e-9 * scale.length) {
+                    course.push(point);
+                }
+            };
+            let mut length = channels[index] * scale.length;
+            for part in &rope.course {
+                match part {
+                    Course::Line(line) => {
+                        let ends = rope.lines[*line]
+                            .map(|(node, point)| self.node_pose(node).point(&point) * scale.length);
+                        length += (ends[1] - ends[0]).norm();
+                        ends.into_iter().for_each(&mut add);
+                    }
+                    Course::Channel { beam, between: [from, to], route } => {
+                        let tiny = 1e-12 * route.length;
+                        let inside = |s: f64| s >= from.min(*to) - tiny && s <= from.max(*to) + tiny;
+                        let samples = beams[*beam].samples.iter().filter(|sample| inside(sample.s));
+                        let mut points: Vec<_> =
+                            samples.map(|sample| sample.pose.point(&route.point(sample.s))).collect();
+                        if from > to {
+                            points.reverse();
+                        }
+                        points.into_iter().for_each(&mut add);
+                    }
+                }
+            }
+            cables.push(CableSolution { course, length, tension: self.tension(index) * scale.force });
+        }
+        cables
+    }
+
+    /// How much of each cable runs in channels, nondimensional.
+    fn channel_lengths(&self) -> Vec<f64> {
+        let mut lengths = vec![0.0; self.lowered.ropes.len()];
+        for (index, span) in self.lowered.spans.iter().enumerate().filter(|(_, s)| !s.tendons.is_empty()) {
+            let mesh = &self.meshes[index];
+            let pulls = self.pulls(index);
+            let acting = Acting { jumps: &span.jumps, load: self.load, pulls: &pulls };
+            for (k, segment) in mesh.segments.iter().enumerate() {
+                let mut state = match k {
+                    0 => self.head_state(index),
+                    _ => self.inner_state(self.layout.spans[index].inner[k - 1].state),
+                };
+                for &j in mesh.first_jumps.iter().filter(|_| k == 0) {
+                    jump(&span.jumps[j], self.load, &mut state);
+                }
+                let along = carry_plain(segment, &acting, &mut state);
+                for (&rope, length) in span.tendons.iter().zip(&along) {
+                    lengths[rope] += length[0];
+                }
+            }
+        }
+        lengths
+    }
+
+    /// Where a beam is sampled, m.
+    fn places(&self, beam: usize, samples: usize) -> Vec<f64> {
+        let length = self.lowered.beams[beam].length;
+        let mut places: Vec<f64> = (0..samples).map(|i| length * i as f64 / (samples - 1) as f64).collect();
+        for output in self.model.outputs.iter().chain(self.model.targets.iter().map(|t| &t.output)) {
+            for probe in &output.probes {
+                if let ProbeTarget::Beam(id, at) = probe.target
+                    && id.0 == beam
+                {
+                    places.push(at.arc_length(length).clamp(0.0, length));
+                }
+            }
+        }
+        for span in self.lowered.spans.iter().filter(|s| s.beam == beam) {
+            places.extend(span.s);
+            places.extend(span.jumps.iter().map(|j| j.s));
+            places.extend(span.channels.iter().flat_map(|channel| channel.breaks()));
+        }
+        places.extend(self.lowered.beams[beam].breaks());
+        places.sort_by(f64::total_cmp);
+        places.dedup_by(|a, b| (*a - *b).abs() < 1e-12 * length);
+        if let Some(last) = places.last_mut() {
+            *last = length;
+        }
+        places
+    }
+
+    /// Samples of one beam and its strain energy in joules.
+    pub(crate) fn sample_beam(&self, beam: usize, samples: usize, energies: bool) -> (BeamSolution, f64) {
+        let law = &self.lowered.beams[beam];
+        let places = self.places(beam, samples);
+        let tiny = 1e-12 * law.length;
+        let mut out = BeamSolution { samples: Vec::with_capacity(places.len()), length: law.length };
+        let mut energy = 0.0;
+        for (index, span) in self.lowered.spans.iter().enumerate().filter(|(_, s)| s.beam == beam) {
+            let mesh = &self.meshes[index];
+            let pulls = self.pulls(index);
+            let acting = Acting { jumps: &span.jumps, load: self.load, pulls: &pulls };
+            let mut state = self.head_state(index);
+            if span.s[0] <= tiny {
+                let threads = self.threads(span, mesh.segments[0][0].s);
+                out.samples.push(self.sample(beam, 0.0, &state, &threads));
+            }
+            for &j in &mesh.first_jumps {
+                jump(&span.jumps[j], self.load, &mut state);
+            }
+            for (k, segment) in mesh.segments.iter().enumerate() {
+                if k > 0 {
+                    state = self.inner_state(self.layout.spans[index].inner[k - 1].state);
+                }
+                for stretch in segment {
+                    let start = state;
+                    let threads = self.threads(span, stretch.s);
+                    let density = stretch.piece.steps as f64 / (stretch.s[1] - stretch.s[0]);
+                    let mut at = stretch.s[0];
+                    let mut to = |s: f64, state: &mut Plain| {
+                        if s - at > 1e-14 * law.length {
+                            let steps = ((density * (s - at)).ceil() as usize).max(1);
+                            carry_through(
+                                &Stretch::new(law, span, [at, s], steps, Vec::new()),
+                                &acting,
+                                state,
+                            );
+                            at = s;
+                        }
+                    };
+                    let mut a = stretch.s[0];
+                    let inside =
+                        places.iter().filter(|s| **s > stretch.s[0] + tiny && **s <= stretch.s[1] + tiny);
+                    for &b in inside {
+                        let b = b.min(stretch.s[1]);
+                        // Energy by three-point Gauss on parts of at most a quarter of a step.
+                        let parts = if energies { ((b - a) * density * 4.0).ceil().max(1.0) } else { 0.0 };
+                        for part in 0..parts as usize {
+                            let h = (b - a) / parts;
+                            for (node, weight) in GAUSS {
+                                let s = a + h * (part as f64 + node);
+                                to(s, &mut state);
+                                energy += h * weight * self.energy_density(beam, s, &state, &threads);
+                            }
+                        }
+                        to(b, &mut state);
+                        out.samples.push(self.sample(beam, b, &state, &threads));
+                        a = b;
+                    }
+                    // The stretch itself gives the state that the next one starts from, jumps included.
+                    state = start;
+                    carry_plain(std::slice::from_ref(stretch), &acting, &mut state);
+                }
+            }
+        }
+        (out, energy)
+    }
+
+    /// The channels along a stretch, with the tension (N) in each.
+    fn threads<'a>(&self, span: &'a Span, s: [f64; 2]) -> Vec<(&'a TendonChannel, f64)> {
+        let force = self.lowered.scale.force;
+        let channels = span.channels.iter().filter(|channel| channel.holds(s));
+        channels.map(|channel| (channel, self.tension(span.tendons[channel.tendon]) * force)).collect()
+    }
+
+    /// What the beam itself carries of the section's wrench, in the section's axes, with its strain and curvature; SI.
+    fn share(
+        &self,
+        beam: usize,
+        s: f64,
+        state: &Plain,
+        threads: &Threads<'_>,
+    ) -> (Wrench, Vector3<f64>, Vector3<f64>) {
+        let law = self.lowered.beams[beam].law_at(s);
+        let whole = self.lowered.scale.wrench_out(&wrench_of(state));
+        let whole = whole.rotated(&pose_of(state).rotation.inverse());
+        let own = if threads.is_empty() {
+            whole
+        } else {
+            let compliance = law.compliance.to_matrix();
+            let coupled = Coupled {
+                k0: law.k0.into(),
+                compliance: std::array::from_fn(|i| std::array::from_fn(|j| compliance[(i, j)])),
+            };
+            let tendons: Vec<(ChannelSample, f64)> =
+                threads.iter().map(|(channel, tension)| (channel.at(s), *tension)).collect();
+            let [force, moment] = rod_share(&coupled, &[whole.force.into(), whole.moment.into()], &tendons);
+            Wrench::new(force.into(), moment.into())
+        };
+        let (strain, curvature) = law.strain(&own.force, &own.moment);
+        (own, strain, curvature)
+    }
+
+    fn sample(&self, beam: usize, s: f64, state: &Plain, threads: &Threads<'_>) -> BeamSample {
+        let law = &self.lowered.beams[beam];
+        let scale = self.lowered.scale;
+        let pose = scale.pose_out(&pose_of(state));
+        let inset = s.clamp(1e-12 * law.length, (1.0 - 1e-12) * law.length);
+        let (own, strain, curvature) = self.share(beam, inset, state, threads);
+        let whole = scale.wrench_out(&wrench_of(state));
+        let rest_pose = self.lowered.beam_rest[beam] * scale.pose_in(&law.shape.pose(s));
+        BeamSample {
+            s,
+            pose,
+            rest_pose: scale.pose_out(&rest_pose),
+            wrench: if threads.is_empty() { whole } else { own.rotated(&pose.rotation) },
+            curvature,
+            rest_curvature: law.law_at(inset).k0,
+            strain,
+        }
+    }
+
+    /// ½ (n, m) · C (n, m), J/m.
+    fn energy_density(&self, beam: usize, s: f64, state: &Plain, threads: &Threads<'_>) -> f64 {
+        let (own, strain, curvature) = self.share(beam, s, state, threads);
+        let rest = self.lowered.beams[beam].law_at(s).k0;
+        0.5 * (own.force.dot(&strain) + own.moment.dot(&(curvature - rest)))
+    }
+}
