@@ -19,18 +19,21 @@ impl<F: FnMut(&[(usize, f64)]) -> Result<Model, ProblemError>> Family for F {
     }
 }
 
-/// How large a change of a parameter is: its own size, or where it is zero what its unit has for one in
-/// this model: the longest beam for a length, EI/L² for a force.
-pub(crate) fn size_of(model: &Model, parameter: usize, length: f64, force: f64) -> f64 {
+/// How large a change of a parameter is: its own size, but at least the given part of what its unit has for one in
+/// this model: the longest beam for a length, EI/L² for a force. A parameter may be zero, or become so.
+pub(crate) fn size_of(model: &Model, parameter: usize, (length, force): (f64, f64), part: f64) -> f64 {
     let parameter = &model.parameters[parameter];
-    if parameter.value != 0.0 {
-        return parameter.value.abs();
-    }
-    match parameter.unit.as_str() {
+    let one = match parameter.unit.as_str() {
         "m" => length,
         "N" => force,
         "N*m" => force * length,
         "N/m" => force / length,
+        "" | "rad" => 1.0,
+        _ if parameter.value != 0.0 => 0.0,
         _ => 1.0,
-    }
+    };
+    parameter.value.abs().max(part * one)
 }
+
+/// Part of a unit below which the size of a parameter does not matter.
+pub(crate) const SMALL: f64 = 1e-3;

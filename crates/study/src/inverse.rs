@@ -11,7 +11,7 @@
 //! targets are directional differences; S is only used to step, so their error does not enter the answer. The targets are led
 //! from what they are at the guess to what is wanted, in as few steps as Newton's contraction allows.
 
-use crate::family::{Family, size_of};
+use crate::family::{Family, SMALL, size_of};
 use crate::sensitivity::SensitivityError;
 use crate::solve::What;
 use crate::{Outcome, Prepared, Progress};
@@ -23,6 +23,8 @@ use nalgebra::{DMatrix, DVector};
 /// Turning (rad), or relative change of a parameter, in a first correction beyond which a step of the targets is
 /// shortened. Wrenches may jump: they follow the shape.
 const NEAR: f64 = 0.5;
+/// Part of a unit that an unknown near zero may change by at once.
+const REACH: f64 = 0.05;
 /// Contraction that a step must show, and that lets the old derivatives serve on.
 const CONTRACTING: f64 = 0.5;
 const FAST: f64 = 0.1;
@@ -260,10 +262,11 @@ impl Prepared {
             step.iter_mut().zip(along).for_each(|(s, v)| *s += v * dp);
         }
         let values = self.unknown_values();
-        let sizes = self.parameter_sizes();
-        let relative = change.iter().zip(&sizes).map(|(dp, size)| (dp / size).abs()).fold(0.0, f64::max);
-        let size = self.problem.size(&step).max(relative);
-        let reach = self.problem.turning(&step).max(relative);
+        let relative = |sizes: Vec<f64>| {
+            change.iter().zip(&sizes).map(|(dp, size)| (dp / size).abs()).fold(0.0, f64::max)
+        };
+        let size = self.problem.size(&step).max(relative(self.parameter_sizes(SMALL)));
+        let reach = self.problem.turning(&step).max(relative(self.parameter_sizes(REACH)));
         if !size.is_finite() || reach > nearest {
             self.border = Some(border);
             return Corrected::Failed(format!("a correction of {reach:.1e} is needed"));
@@ -297,7 +300,7 @@ impl Prepared {
             return Err(SensitivityError::Tangent(breakdown).into());
         }
         let values = self.unknown_values();
-        let sizes = self.parameter_sizes();
+        let sizes = self.parameter_sizes(SMALL);
         let count = values.len();
         let mut border = Border { along: Vec::with_capacity(count), matrix: DMatrix::zeros(count, count) };
         let mut kept = Vec::new();
@@ -377,10 +380,9 @@ impl Prepared {
         ))
     }
 
-    fn parameter_sizes(&self) -> Vec<f64> {
-        let (length, force) = self.problem.units();
-        let model = self.model();
-        model.unknowns.iter().map(|u| size_of(model, u.parameter, length, force)).collect()
+    fn parameter_sizes(&self, part: f64) -> Vec<f64> {
+        let (units, model) = (self.problem.units(), self.model());
+        model.unknowns.iter().map(|u| size_of(model, u.parameter, units, part)).collect()
     }
 
     /// Puts the model with these values under the present state.

@@ -8,7 +8,7 @@
 //! the derivative; it is returned with the rest.
 
 use crate::Prepared;
-use crate::family::{Family, size_of};
+use crate::family::{Family, SMALL, size_of};
 use crate::solve::What;
 use flexura_equilibrium::{CENTRAL, ProblemError};
 use flexura_nonlinear::{Breakdown, System};
@@ -129,8 +129,7 @@ impl Prepared {
         let mut columns = Vec::new();
         for &parameter in unknown.iter().chain(&given) {
             let value = self.problem.model().parameters[parameter].value;
-            let (length, force) = self.problem.units();
-            let size = size_of(self.problem.model(), parameter, length, force);
+            let size = size_of(self.problem.model(), parameter, self.problem.units(), SMALL);
             let (slopes, along) = self.slopes(family, parameter, value, size)?;
             let twists = self.problem.body_motions(&along);
             columns.push((slopes, twists));

@@ -294,8 +294,9 @@ impl Prepared {
         };
         if let Some((joint, shift, turn)) = self.problem.open_loop() {
             let reason = format!(
-                "the loop does not close: at {joint} its two sides are {shift:.3e} m and {:.3e} deg apart; free one of its \
+                "the loop does not close: at {joint} its two sides are {:.4} mm and {:.4} deg apart; free one of its \
                  joints, or correct the places and axes of those that the warning names",
+                shift * 1e3,
                 turn.to_degrees()
             );
             return Outcome { status: Status::Inconsistent, reason: Some(reason), error_estimate, path };

@@ -245,7 +245,10 @@ fn scale_of(model: &Model, beams: &[BeamLaw]) -> Result<Scale, ProblemError> {
             "add a [beam.<name>] with a section and a start",
         ));
     }
-    let spread = model.bodies.iter().map(|b| b.pose.position.norm()).fold(0.0, f64::max);
+    // The extent about the middle, which does not depend on where the origin is.
+    let middle =
+        model.bodies.iter().map(|b| b.pose.position).sum::<Vector3<f64>>() / model.bodies.len() as f64;
+    let spread = model.bodies.iter().map(|b| (b.pose.position - middle).norm()).fold(0.0, f64::max);
     let length = if spread > 0.0 { spread } else { 1.0 };
     let mut force = model.loads.iter().map(|l| l.force.norm()).fold(0.0, f64::max);
     for spring in &model.springs {
