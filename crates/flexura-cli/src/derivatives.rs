@@ -28,20 +28,25 @@ pub fn sensitivities(model: &Model, solution: &Solution, evaluation: &Evaluation
             .chain(columns.iter().map(|p| format!("by {p}")))
             .collect();
         let mut table = Table::new(&headings.iter().map(String::as_str).collect::<Vec<_>>());
-        for output in &evaluation.outputs {
+        let outputs = evaluation.outputs.iter().map(|output| (output.name.clone(), output.unit.clone()));
+        let found = model.unknowns.iter().map(|unknown| {
+            let parameter = &model.parameters[unknown.parameter];
+            (format!("parameter.{}", parameter.name), parameter.unit.clone())
+        });
+        for (output, unit) in outputs.chain(found) {
             let row: Vec<&Dependence> = columns
                 .iter()
-                .filter_map(|p| list.iter().find(|d| d.output == output.name && d.parameter == *p))
+                .filter_map(|p| list.iter().find(|d| d.output == output && d.parameter == *p))
                 .collect();
             let components = row.first().map_or(0, |dependence| dependence.derivative.len());
             for component in 0..components {
                 let name = match components {
-                    3 => format!("{}.{}", output.name, ["x", "y", "z"][component]),
-                    _ => output.name.clone(),
+                    3 => format!("{output}.{}", ["x", "y", "z"][component]),
+                    _ => output.clone(),
                 };
                 let cells = row.iter().map(|dependence| {
                     let value = parameter(model, &dependence.parameter);
-                    cell(dependence, component, value, &output.unit, &scales)
+                    cell(dependence, component, value, &unit, &scales)
                 });
                 table.row(std::iter::once(name).chain(cells).collect());
             }

@@ -8,6 +8,9 @@ use flexura::post::{
 };
 use flexura::solution::Status;
 
+/// Rows of a table; the files and the document hold all.
+const MOST_ROWS: usize = 40;
+
 /// The summary as text.
 pub fn render(summary: &Summary) -> String {
     let mut text = headline(summary);
@@ -23,7 +26,7 @@ pub fn render(summary: &Summary) -> String {
     ];
     for section in sections.into_iter().filter(|section| !section.is_empty()) {
         text.push('\n');
-        text += &section.render();
+        text += &section.shortened(MOST_ROWS).render();
     }
     if summary.beams.iter().any(|beam| beam.peaks.is_none()) {
         text += &format!("\n{}\n", styled(DIM, "no stress where a section is given as a stiffness"));
@@ -111,7 +114,13 @@ fn beams(summary: &Summary) -> Table {
         headings.push("safety");
     }
     let mut table = Table::new(&headings);
-    for beam in &summary.beams {
+    let mut beams: Vec<&BeamSummary> = summary.beams.iter().collect();
+    if beams.len() > MOST_ROWS {
+        // What is shown of a network is what is strained most.
+        let strain = |beam: &BeamSummary| beam.peaks.as_ref().map_or(0.0, |peaks| peaks.strain.value.abs());
+        beams.sort_by(|a, b| strain(b).total_cmp(&strain(a)));
+    }
+    for beam in beams {
         let mut row = vec![beam.name.clone(), quantity(beam.length, "m", 4)];
         match &beam.peaks {
             Some(peaks) => row.extend(beam_row(beam, peaks, has_safety)),

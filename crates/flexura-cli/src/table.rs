@@ -20,6 +20,16 @@ impl Table {
         self.rows.len() == 1
     }
 
+    /// Keeps the first `most` rows and says how many more there are; a network would fill the screen.
+    pub fn shortened(mut self, most: usize) -> Self {
+        let more = (self.rows.len() - 1).saturating_sub(most);
+        if more > 0 {
+            self.rows.truncate(1 + most);
+            self.rows.push(vec![format!("... and {more} more")]);
+        }
+        self
+    }
+
     /// The text, headings in bold, rows indented by two.
     pub fn render(&self) -> String {
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);

@@ -73,9 +73,10 @@ fn by_output<T>(
     if solution.sensitivities.is_none() {
         return Ok(None);
     }
-    let outputs = evaluation.outputs.iter();
+    let outputs = evaluation.outputs.iter().map(|output| output.name.clone());
+    let found = model.unknowns.iter().map(|u| format!("parameter.{}", model.parameters[u.parameter].name));
     let mut table: Vec<(String, Named<T>)> =
-        outputs.map(|output| (output.name.clone(), Named::default())).collect();
+        outputs.chain(found).map(|name| (name, Named::default())).collect();
     for dependence in dependences(model, solution, evaluation) {
         let row = table.iter_mut().find(|(name, _)| *name == dependence.output);
         if let (Some((_, row)), Some(value)) = (row, value(&dependence)?) {

@@ -2,7 +2,7 @@
 
 use crate::{Evaluation, OutputValue, Scales};
 use flexura_expression::{Expression, Quantity};
-use flexura_model::Model;
+use flexura_model::{Model, Parameter};
 use flexura_solution::Solution;
 
 /// How one output depends on one parameter.
@@ -51,6 +51,21 @@ pub fn dependences(model: &Model, solution: &Solution, evaluation: &Evaluation) 
             });
         }
     }
+    // Of an inverse problem, how what was found depends on what was given.
+    let found: Vec<&Parameter> = model.unknowns.iter().map(|u| &model.parameters[u.parameter]).collect();
+    for (unknown, by) in found.iter().zip(&sensitivities.unknowns) {
+        for (slope, &position) in by.iter().zip(&sensitivities.parameters) {
+            let parameter = &model.parameters[position];
+            let known = parameter.value != 0.0 && unknown.value != 0.0;
+            list.push(Dependence {
+                output: format!("parameter.{}", unknown.name),
+                parameter: parameter.name.clone(),
+                derivative: vec![*slope],
+                unit: quotient(&unknown.unit, &parameter.unit),
+                elasticity: vec![known.then(|| slope * parameter.value / unknown.value)],
+            });
+        }
+    }
     list
 }
 
@@ -85,7 +100,7 @@ mod tests {
             ("rad", "", "rad"),
             ("rad", "N", "rad/N"),
             ("Pa", "m", "Pa/m"),
-            ("m", "N*m", "m/(N*m)"),
+            ("m", "N*m", "1/N"),
             ("rad", "N*m/rad", "rad/(N*m/rad)"),
         ];
         for (over, under, unit) in cases {

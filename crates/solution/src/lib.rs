@@ -184,6 +184,9 @@ pub struct Sensitivities {
     /// For each output of the model, for each of its components, for each of these parameters: d output / d
     /// parameter, SI.
     pub outputs: Vec<Vec<Vec<f64>>>,
+    /// Of an inverse problem: for each unknown parameter, for each of these (given) parameters, d unknown / d given while
+    /// the targets are kept.
+    pub unknowns: Vec<Vec<f64>>,
     /// For each body, for each of these parameters: motion of its origin and turning per unit.
     pub bodies: Vec<Vec<Twist>>,
 }

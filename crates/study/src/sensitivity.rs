@@ -14,6 +14,7 @@ use flexura_equilibrium::{CENTRAL, ProblemError};
 use flexura_nonlinear::{Breakdown, System};
 use flexura_post::{OutputValue, PostError};
 use flexura_solution::Sensitivities;
+use nalgebra::{DMatrix, DVector};
 
 /// First relative step of the differences, and by how much the next ones are shorter.
 const FIRST: f64 = 4e-3;
@@ -66,17 +67,20 @@ impl From<PostError> for SensitivityError {
 }
 
 impl Prepared {
-    /// The outputs of the present state, components one after another.
+    /// The outputs of the present state, components one after another, then by how much each target is missed.
     pub(crate) fn outputs_here(&mut self) -> Result<Vec<f64>, SensitivityError> {
-        let solution = self.light_solution(What::Outputs)?;
-        let outputs = flexura_post::outputs(self.problem.model(), &solution)?;
-        Ok(outputs
-            .iter()
-            .flat_map(|output| match output.value {
-                OutputValue::Number(v) => vec![v],
-                OutputValue::Vector(v) => v.to_vec(),
-            })
-            .collect())
+        let solution = self.light_solution(What::Both)?;
+        let model = self.problem.model();
+        let mut values = Vec::new();
+        for output in flexura_post::outputs(model, &solution)? {
+            match output.value {
+                OutputValue::Number(v) => values.push(v),
+                OutputValue::Vector(v) => values.extend(v),
+            }
+        }
+        let targets = flexura_post::targets(model, &solution)?;
+        values.extend(targets.iter().zip(&model.targets).map(|(value, target)| value - target.value));
+        Ok(values)
     }
 
     /// The step of the state per unit of a parameter, `-J⁻¹ ∂r/∂p`, with the tangent last factorised, by differences of
@@ -106,7 +110,8 @@ impl Prepared {
         Ok(sum)
     }
 
-    /// Derivatives of all outputs and of all body poses with respect to parameters, at the present equilibrium.
+    /// Derivatives of all outputs and of all body poses with respect to parameters, at the present equilibrium. Of an
+    /// inverse problem only the given parameters count: the unknown ones move with them so that the targets are kept.
     ///
     /// # Errors
     /// [`SensitivityError`].
@@ -115,25 +120,48 @@ impl Prepared {
         family: &mut dyn Family,
         parameters: &[usize],
     ) -> Result<Sensitivities, SensitivityError> {
-        let components: Vec<usize> =
-            self.problem.model().outputs.iter().map(|output| output.formulas.len()).collect();
-        let mut result = Sensitivities {
-            parameters: parameters.to_vec(),
-            outputs: components.iter().map(|n| vec![Vec::new(); *n]).collect(),
-            bodies: vec![Vec::new(); self.problem.model().bodies.len()],
-        };
-        for &parameter in parameters {
+        let model = self.problem.model();
+        let components: Vec<usize> = model.outputs.iter().map(|output| output.formulas.len()).collect();
+        let outputs: usize = components.iter().sum();
+        let (bodies, targets) = (model.bodies.len(), model.targets.len());
+        let unknown: Vec<usize> = model.unknowns.iter().map(|u| u.parameter).collect();
+        let given: Vec<usize> = parameters.iter().copied().filter(|p| !unknown.contains(p)).collect();
+        let mut columns = Vec::new();
+        for &parameter in unknown.iter().chain(&given) {
             let value = self.problem.model().parameters[parameter].value;
             let (length, force) = self.problem.units();
             let size = size_of(self.problem.model(), parameter, length, force);
             let (slopes, along) = self.slopes(family, parameter, value, size)?;
-            let mut slopes = slopes.into_iter();
-            for output in &mut result.outputs {
-                for component in output {
-                    component.push(slopes.next().unwrap_or(0.0));
+            let twists = self.problem.body_motions(&along);
+            columns.push((slopes, twists));
+        }
+        // What an unknown parameter must do so that the targets are kept while a given one moves.
+        let given_columns = columns.split_off(unknown.len());
+        let matrix = DMatrix::from_fn(targets, unknown.len(), |i, k| columns[k].0[outputs + i]).lu();
+        let mut result = Sensitivities {
+            parameters: given.clone(),
+            outputs: components.iter().map(|n| vec![Vec::new(); *n]).collect(),
+            unknowns: vec![Vec::new(); unknown.len()],
+            bodies: vec![Vec::new(); bodies],
+        };
+        for (mut slopes, mut twists) in given_columns {
+            if targets > 0 {
+                let right = DVector::from_fn(targets, |i, _| -slopes[outputs + i]);
+                let follow = matrix.solve(&right).ok_or(Breakdown::Singular)?;
+                for ((by, (along, turns)), list) in follow.iter().zip(&columns).zip(&mut result.unknowns) {
+                    list.push(*by);
+                    slopes.iter_mut().zip(along).for_each(|(s, a)| *s += by * a);
+                    for (twist, turn) in twists.iter_mut().zip(turns) {
+                        twist.angular += turn.angular * *by;
+                        twist.linear += turn.linear * *by;
+                    }
                 }
             }
-            for (list, twist) in result.bodies.iter_mut().zip(self.problem.body_motions(&along)) {
+            let mut slopes = slopes.into_iter();
+            for component in result.outputs.iter_mut().flatten() {
+                component.push(slopes.next().unwrap_or(0.0));
+            }
+            for (list, twist) in result.bodies.iter_mut().zip(twists) {
                 list.push(twist);
             }
         }

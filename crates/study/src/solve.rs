@@ -13,7 +13,8 @@ use flexura_spatial::Vector3;
 pub struct Options {
     /// Wanted accuracy, relative to L for lengths, 1 for rotations, EI/L² and EI/L for wrenches.
     pub tolerance: f64,
-    /// Samples along each beam in the result, ends included.
+    /// Samples along each beam in the result, ends included; fewer in networks of hundreds of beams, so that a result holds
+    /// some ten thousands of them.
     pub samples: usize,
     /// Bodies and places on beams whose compliance is wanted, besides those that outputs name.
     pub compliances: Vec<ProbeTarget>,
@@ -50,8 +51,8 @@ pub struct Prepared {
 /// What a light solution is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum What {
-    Outputs,
     Targets,
+    Both,
 }
 
 /// What a solve came to, before anything is sampled.
@@ -72,6 +73,10 @@ const NEAR: f64 = 0.5;
 
 /// The same for a result that a user names as the start.
 const NEAR_RESULT: f64 = 2.0;
+
+/// Samples of all beams together, and of each at least.
+const MOST_SAMPLES: usize = 30_000;
+const FEWEST_SAMPLES: usize = 5;
 
 /// √(F/EI) L beyond which a load is taken for a mistake.
 const LARGEST_PHASE: f64 = 1e4;
@@ -131,8 +136,10 @@ impl Prepared {
     pub(crate) fn light_solution(&mut self, what: What) -> Result<Solution, Breakdown> {
         let model = self.problem.model();
         let outputs: Vec<&Output> = match what {
-            What::Outputs => model.outputs.iter().collect(),
             What::Targets => model.targets.iter().map(|target| &target.output).collect(),
+            What::Both => {
+                model.outputs.iter().chain(model.targets.iter().map(|target| &target.output)).collect()
+            }
         };
         let probes = || outputs.iter().flat_map(|output| &output.probes);
         let energies = probes().any(|probe| probe.quantity == Quantity::Energy);
@@ -387,7 +394,8 @@ pub fn solve_family(
         (None, true) => prepared.solve(options.tolerance, progress),
         (None, false) => prepared.solve_inverse(family, options.tolerance, progress),
     };
-    let mut solution = prepared.solution(&outcome, options.samples);
+    let samples = options.samples.min((MOST_SAMPLES / model.beams.len().max(1)).max(FEWEST_SAMPLES));
+    let mut solution = prepared.solution(&outcome, samples);
     if far {
         solution.warnings.push(
             "the earlier result is too far from an equilibrium of this model; it was solved from rest"

@@ -4,12 +4,14 @@
 //! against a published number or a limit.
 
 pub mod bend45;
+pub mod bow;
 pub mod chebyshev;
 pub mod collocation;
 pub mod elastica;
 pub mod elliptic;
 pub mod helix;
 pub mod ivp;
+pub mod planar;
 pub mod rod;
 pub mod roll_up;
 pub mod spring;

@@ -10,6 +10,7 @@
 mod build;
 mod case;
 mod cases;
+mod file;
 mod measure;
 mod table;
 

@@ -3,10 +3,15 @@
 mod bend45;
 mod clamped_clamped;
 mod curves;
+mod deep_arch;
 mod elastica;
+mod ends;
+mod flexure_order;
+mod flexures;
 mod follower;
 mod four_bar;
 mod helix_wrench;
+mod robot;
 mod roll_up;
 mod spring;
 mod strip;
@@ -29,6 +34,11 @@ pub fn cases() -> Vec<Case> {
         &taper::CASES,
         &clamped_clamped::CASES,
         &four_bar::CASES,
+        &robot::CASES,
+        &ends::CASES,
+        &deep_arch::CASES,
+        &flexure_order::CASES,
+        &flexures::CASES,
         &tendons::CASES,
     ]
     .concat()

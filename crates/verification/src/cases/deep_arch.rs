@@ -1,0 +1,73 @@
+//! The deep clamped-hinged arch of DaDeppo and Schmidt: its greatest load, under displacement control.
+
+use crate::file::File;
+use crate::{Case, Row};
+use flexura_testkit::planar::{self, Beam, Body, End, Mechanism};
+use std::f64::consts::PI;
+
+pub const CASES: [Case; 1] = [Case {
+    id: "deep_arch",
+    title: "Clamped-hinged arch of 215°, R = 100, EI = 1e6, led down at its crown (`deep_arch.toml`): greatest load \
+            8.973464 EI/R² at 1.137 R; load and sway on both sides of it",
+    citation: "D. DaDeppo and R. Schmidt, *J. Appl. Mech.* 42 (1975) 893; and Taylor series along both halves, closed by \
+               Newton's method",
+    needed: "1e-4 of the limit load, 1e-3 R; 1e-8 against the second method",
+    run,
+    closed_form: None,
+}];
+
+const R: f64 = 100.0;
+const EI: f64 = 1e6;
+const UNIT: f64 = EI / (R * R);
+
+/// The load that holds the crown `drop` down, and how far it sways.
+fn reference(drop: f64) -> Result<(f64, f64), String> {
+    let half: f64 = 107.5 * PI / 180.0;
+    let arch = |start: End, end: End| Beam {
+        length: R * half,
+        bending: EI,
+        stretch: 0.0,
+        curvature: 1.0 / R,
+        start,
+        end,
+    };
+    let (x, y) = (R * half.sin(), R * half.cos());
+    let right = arch(End::clamp(None, [x, y, PI - half]), End::clamp(Some(0), [0.0, 0.0, PI]));
+    let hinge = End { body: None, place: [-x, y, PI + half], hinged: true };
+    let left = arch(End::clamp(Some(0), [0.0, 0.0, PI]), hinge);
+    let at = |fraction: f64| Mechanism {
+        beams: vec![right, left],
+        bodies: vec![Body {
+            rest: [0.0, R, 0.0],
+            held: [None, Some(R - drop * fraction), None],
+            load: [0.0; 3],
+        }],
+    };
+    let found = planar::solve(&at, 40).map_err(|error| format!("{error:?}"))?;
+    Ok((-found.reactions[0][1], found.poses[0][0]))
+}
+
+fn run() -> Result<Vec<Row>, String> {
+    let file = File::new(include_str!("../../../../models/deep_arch.toml"))?;
+    let load = |drop: f64| file.solve(&[("drop", drop)], 1e-10).map(|answer| answer.number("load"));
+    // The greatest load: parabolas through three points, each around the last one's top.
+    let (mut centre, mut width, mut greatest) = (113.7, 1.0, f64::NAN);
+    for _ in 0..3 {
+        let (a, b, c) = (load(centre - width)?, load(centre)?, load(centre + width)?);
+        let (slope, bend) = ((c - a) / (2.0 * width), (a - 2.0 * b + c) / (width * width));
+        greatest = b - 0.5 * slope * slope / bend;
+        centre -= slope / bend;
+        width *= 0.1;
+    }
+    let mut rows = vec![
+        Row::relative("greatest load R²/EI", 8.973464, greatest / UNIT, 1e-4),
+        Row::absolute("crown displacement there, R", 1.137, centre / R, 1e-3),
+    ];
+    for drop in [50.0, 100.0, 113.7, 118.0] {
+        let (wanted, sway) = reference(drop)?;
+        let answer = file.solve(&[("drop", drop)], 1e-10)?;
+        rows.push(Row::scaled(format!("load at {drop}"), wanted, answer.number("load"), UNIT, 1e-8));
+        rows.push(Row::scaled(format!("sway at {drop}"), sway, answer.number("sway"), R, 1e-8));
+    }
+    Ok(rows)
+}

@@ -1,0 +1,97 @@
+//! Bundled model files, solved the way a user would.
+
+use flexura::modelfile::Document;
+use flexura::post::{self, Evaluation, OutputValue};
+use flexura::{FileFamily, Options, solve_family};
+use flexura_model::Model;
+use flexura_solution::{Solution, Status};
+
+/// A model file, with what a case adds to it.
+pub struct File {
+    document: Document,
+}
+
+/// A solved file.
+pub struct Answer {
+    pub model: Model,
+    pub solution: Solution,
+    pub evaluation: Evaluation,
+}
+
+impl File {
+    /// From the text of a model file.
+    ///
+    /// # Errors
+    /// The text is wrong.
+    pub fn new(text: &str) -> Result<Self, String> {
+        let document = Document::parse(text, "model.toml").map_err(|report| report.render(false))?;
+        Ok(Self { document })
+    }
+
+    /// Forward or inverse, with some parameters (SI) overridden.
+    ///
+    /// # Errors
+    /// The model is wrong, or the solve did not converge to the tolerance.
+    pub fn solve(&self, values: &[(&str, f64)], tolerance: f64) -> Result<Answer, String> {
+        self.solve_with(values, &Options { tolerance, samples: 3, ..Options::default() })
+    }
+
+    /// The same with options.
+    ///
+    /// # Errors
+    /// As [`File::solve`].
+    pub fn solve_with(&self, values: &[(&str, f64)], options: &Options) -> Result<Answer, String> {
+        let overrides: Vec<(String, String)> =
+            values.iter().map(|(name, value)| ((*name).to_string(), format!("{value:e}"))).collect();
+        let model = self.document.model(&overrides).map_err(|report| report.render(false))?;
+        let mut family = FileFamily::new(&self.document, &overrides, &model);
+        let (solution, model) =
+            solve_family(&model, &mut family, options, &mut |_| {}).map_err(|error| error.to_string())?;
+        if solution.status != Status::Converged {
+            let reason = solution.reason.as_deref().unwrap_or("no reason given");
+            return Err(format!("{} at {values:?}: {reason}", solution.status.word()));
+        }
+        let evaluation = post::evaluate(&model, &solution).map_err(|error| error.to_string())?;
+        Ok(Answer { model, solution, evaluation })
+    }
+}
+
+impl Answer {
+    /// An output that is a number; NaN if there is none, which no row survives.
+    pub fn number(&self, name: &str) -> f64 {
+        match self.output(name) {
+            Some(OutputValue::Number(value)) => value,
+            _ => f64::NAN,
+        }
+    }
+
+    /// An output that is a vector; NaN if there is none.
+    pub fn vector(&self, name: &str) -> [f64; 3] {
+        match self.output(name) {
+            Some(OutputValue::Vector(value)) => [value[0], value[1], value[2]],
+            _ => [f64::NAN; 3],
+        }
+    }
+
+    /// The value of a parameter, of an unknown the one found; NaN if there is none.
+    pub fn parameter(&self, name: &str) -> f64 {
+        self.model.parameters.iter().find(|p| p.name == name).map_or(f64::NAN, |p| p.value)
+    }
+
+    fn output(&self, name: &str) -> Option<OutputValue> {
+        self.evaluation.outputs.iter().find(|output| output.name == name).map(|output| output.value)
+    }
+}
+
+/// A file with an inverse problem added: parameters with their guesses, outputs with the values wanted.
+pub fn asking(text: &str, unknowns: &[(&str, f64)], targets: &[(&str, f64)]) -> String {
+    let mut text = format!("{text}\n[unknown]\n");
+    for (name, guess) in unknowns {
+        text += &format!("{name} = {{ guess = {guess:e} }}\n");
+    }
+    text += "[target]\n";
+    for (output, value) in targets {
+        text += &format!("\"output.{output}\" = {value:e}\n");
+    }
+    text
+}
