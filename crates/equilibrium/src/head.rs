@@ -80,7 +80,7 @@ impl Equilibrium {
         let kept = carried - wrenches..end.count;
         end.count = motions + kept.len();
         columns[motions..end.count].copy_from_slice(&end.columns[kept.clone()]);
-        end.columns = columns;
+        end.columns[..end.count].copy_from_slice(&columns[..end.count]);
         for (to, from) in lengths.iter_mut().zip(&end.lengths) {
             to[0] = from[0];
             to[1 + motions..=end.count].copy_from_slice(&from[1 + kept.start..=kept.end]);

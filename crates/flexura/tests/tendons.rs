@@ -1,5 +1,8 @@
 //! Cables that run in channels along beams.
 
+// Clippy takes helpers of tests for code that must not panic.
+#![allow(clippy::unwrap_used)]
+
 use flexura::model::{Cable, CableLaw, Guide, Model};
 use flexura::modelfile::Document;
 use flexura::post::OutputValue;
