@@ -56,7 +56,7 @@ fn each_wrong_file_gets_its_message() {
 
 #[test]
 fn the_physically_wrong_files_are_well_formed() {
-    for name in ["physical_floating_body.toml", "physical_overconstrained_loop.toml"] {
+    for name in ["physical_floating_body.toml", "physical_impossible_cable.toml"] {
         let document = Document::read(folder().join(name)).unwrap();
         document.model(&[]).unwrap_or_else(|report| panic!("{report}"));
     }

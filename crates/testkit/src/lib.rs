@@ -11,6 +11,7 @@ pub mod elastica;
 pub mod elliptic;
 pub mod helix;
 pub mod ivp;
+pub mod least_norm;
 pub mod planar;
 pub mod rod;
 pub mod roll_up;

@@ -4,7 +4,7 @@ use flexura::modelfile::Document;
 use flexura::post::{self, Evaluation, OutputValue};
 use flexura::{FileFamily, Options, solve_family};
 use flexura_model::Model;
-use flexura_solution::{Solution, Status};
+use flexura_solution::Status;
 
 /// A model file, with what a case adds to it.
 pub struct File {
@@ -14,7 +14,6 @@ pub struct File {
 /// A solved file.
 pub struct Answer {
     pub model: Model,
-    pub solution: Solution,
     pub evaluation: Evaluation,
 }
 
@@ -52,7 +51,7 @@ impl File {
             return Err(format!("{} at {values:?}: {reason}", solution.status.word()));
         }
         let evaluation = post::evaluate(&model, &solution).map_err(|error| error.to_string())?;
-        Ok(Answer { model, solution, evaluation })
+        Ok(Answer { model, evaluation })
     }
 }
 

@@ -10,7 +10,9 @@ mod flexure_order;
 mod flexures;
 mod follower;
 mod four_bar;
+mod frame;
 mod helix_wrench;
+mod joints;
 mod robot;
 mod roll_up;
 mod spring;
@@ -37,8 +39,10 @@ pub fn cases() -> Vec<Case> {
         &robot::CASES,
         &ends::CASES,
         &deep_arch::CASES,
+        &frame::CASES,
         &flexure_order::CASES,
         &flexures::CASES,
+        &joints::CASES,
         &tendons::CASES,
     ]
     .concat()
