@@ -39,7 +39,9 @@ honest!(
     helix,
     space_curve,
     helix_by_wrench,
-    strip_50_g
+    strip_50_g,
+    tendon_arc,
+    tendon_helix
 );
 
 #[test]
