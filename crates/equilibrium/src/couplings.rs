@@ -1,4 +1,4 @@
-//! Residual and tangent of what couples nodes: joints, point loads, springs.
+//! Residual and tangent of what couples nodes: joints, couplings of their coordinates, point loads, springs, cables.
 
 use crate::assembly::{Sink, unit};
 use crate::held::HoldRef;

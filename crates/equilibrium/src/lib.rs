@@ -3,15 +3,18 @@
 //! Everything inside is nondimensional: lengths by the longest beam L, forces by EI/L² of its softest
 //! bending stiffness. [`Equilibrium`] is the prepared problem; it implements `nonlinear::System`.
 //!
-//! - `lower`: model -> nodes, spans, joints, springs;
+//! - `lower`: model -> nodes, spans, joints, couplings, springs, cables;
 //! - `beam`: the law of one beam at any place, as pieces that can be integrated;
 //! - `channel`: tendons in channels along beams;
 //! - `mesh`: how many steps and shooting segments a span gets;
 //! - `layout`: which number of the state and which unknown belongs to what;
 //! - `shooting`: spans carried from node to node with their derivatives;
 //! - `prepare`: the state at rest, and when mesh and layout change;
-//! - `assembly`: residual and tangent of spans, `couplings` of joints, loads and springs; `system`: the `System` trait on it;
-//! - `accuracy`: the error estimate; `diagnose`: what is loose or held twice; `extract`: the solution.
+//! - `assembly`: residual and tangent of spans, `head` and `held` of what their starts hang on, `couplings` of joints, loads,
+//!   springs and cables; `system`: the `System` trait on it;
+//! - `accuracy`: the error estimate; `diagnose`: what is loose or held twice; `redundancy`: loops that close nonetheless;
+//! - `tangents`: compliances and motions; `neighbour`: other numbers under the same state; `stand`: an earlier result as state;
+//! - `extract` and `samples`: the solution.
 
 mod accuracy;
 mod assembly;

@@ -5,7 +5,7 @@
 //! of the residual at a standing state, and with the direction (dx/dp, 1) an output is a function of one number whose
 //! derivative at zero is wanted. Both are taken by central differences of order six, whose step is shortened
 //! until two of them agree; no equilibrium is solved again. What is left of difference and round-off is about 1e-11 of
-//! the derivative; it is returned with the rest.
+//! the derivative.
 
 use crate::Prepared;
 use crate::family::{Family, SMALL, size_of};

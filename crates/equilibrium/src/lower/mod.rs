@@ -1,4 +1,4 @@
-//! Model -> nodes (bodies and hubs), spans (beams between them), joints, springs.
+//! Model -> nodes (bodies and hubs), spans (beams between them), joints, couplings, springs, cables.
 //!
 //! A beam is one span, unless something that depends on another part holds on to it: then a hub, a massless
 //! node of six coordinates, is put there and the beam becomes two spans welded to it. Where the beam itself is held
