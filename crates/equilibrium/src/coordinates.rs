@@ -165,7 +165,7 @@ impl Coordinates {
                 let rest = start[i] + load * (law.rest - start[i]);
                 tau[i] = load * effort - law.stiffness * (q[i] - rest);
                 slope[i] = -law.stiffness;
-                if let Some((beyond, k)) = push(law, q[i]) {
+                if let Some((beyond, k)) = push(law, q[i], start[i], load) {
                     tau[i] -= k * beyond;
                     slope[i] -= k;
                 }
@@ -189,12 +189,14 @@ impl Coordinates {
 
     /// ½ Σ k (q - rest)², nondimensional.
     pub fn energy(&self, configuration: &Configuration, load: f64) -> f64 {
+        let start = self.joint.coordinates(&self.initial);
         let q = self.coordinates(configuration, load);
         self.laws
             .iter()
             .enumerate()
             .map(|(i, law)| {
-                let limit = push(law, q[i]).map_or(0.0, |(beyond, k)| 0.5 * k * beyond * beyond);
+                let limit =
+                    push(law, q[i], start[i], load).map_or(0.0, |(beyond, k)| 0.5 * k * beyond * beyond);
                 0.5 * law.stiffness * (q[i] - law.rest).powi(2) + limit
             })
             .sum()
@@ -202,11 +204,12 @@ impl Coordinates {
 
     /// What stiffnesses and limits push with along each coordinate, nondimensional: `k (q - rest)`.
     pub fn push_back(&self, configuration: &Configuration, load: f64) -> [f64; MAX_FREEDOMS] {
+        let start = self.joint.coordinates(&self.initial);
         let q = self.coordinates(configuration, load);
         let mut force = [0.0; MAX_FREEDOMS];
         for (i, law) in self.laws.iter().enumerate() {
-            force[i] =
-                law.stiffness * (q[i] - law.rest) + push(law, q[i]).map_or(0.0, |(beyond, k)| k * beyond);
+            force[i] = law.stiffness * (q[i] - law.rest)
+                + push(law, q[i], start[i], load).map_or(0.0, |(beyond, k)| k * beyond);
         }
         force
     }
@@ -250,13 +253,17 @@ impl Coordinates {
 }
 
 /// How far `q` lies beyond a limit that pushes, and the stiffness of the push.
-fn push(law: &CoordinateLaw, q: f64) -> Option<(f64, f64)> {
+/// A limit that the rest state passes moves in from there with the load, so that rest is relaxed.
+fn push(law: &CoordinateLaw, q: f64, start: f64, load: f64) -> Option<(f64, f64)> {
     let limits = law.limits?;
     let stiffness = limits.stiffness?;
-    let beyond = if q < limits.range[0] {
-        q - limits.range[0]
-    } else if q > limits.range[1] {
-        q - limits.range[1]
+    let [low, high] = limits.range;
+    let low = if start < low { start + load * (low - start) } else { low };
+    let high = if start > high { start + load * (high - start) } else { high };
+    let beyond = if q < low {
+        q - low
+    } else if q > high {
+        q - high
     } else {
         return None;
     };

@@ -227,7 +227,7 @@ impl Equilibrium {
         unnamed()
     }
 
-    /// Warnings about the state: coordinates beyond their limits, cables that push.
+    /// Warnings about the state: coordinates beyond their limits.
     pub(crate) fn state_warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         let spans = self.lowered.spans.iter().zip(&self.layout.spans).enumerate();
@@ -256,16 +256,6 @@ impl Equilibrium {
                     text(value),
                     text(range[0]),
                     text(range[1])
-                ));
-            }
-        }
-        for (index, cable) in self.model.cables.iter().enumerate() {
-            let tension = self.tension(index);
-            if tension < 0.0 {
-                warnings.push(format!(
-                    "cable.{}: would have to push with {:.6} N to keep its length; a cable would be slack",
-                    cable.name,
-                    -tension * self.lowered.scale.force
                 ));
             }
         }

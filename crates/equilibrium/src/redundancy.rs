@@ -13,6 +13,8 @@ use crate::system::Equilibrium;
 use flexura_nonlinear::System;
 use nalgebra::DMatrix;
 
+/// Part of the largest force below which a cable counts as just taut.
+const SLACK: f64 = 1e-7;
 /// Closure error, relative to L and 1, from which a loop counts as not closing.
 const OPEN: f64 = 1e-6;
 
@@ -99,6 +101,18 @@ impl Equilibrium {
             (turn.norm() > OPEN || shift.norm() > OPEN)
                 .then(|| (self.joint_name(joint), shift.norm() * self.lowered.scale.length, turn.norm()))
         })
+    }
+}
+
+impl Equilibrium {
+    /// A cable that would have to push to have its length, and with how much (N).
+    pub fn slack_cable(&self) -> Option<(String, f64)> {
+        let force = self.lowered.scale.force;
+        let pushes = (0..self.lowered.ropes.len()).find(|&i| {
+            self.layout.ropes[i].is_some()
+                && self.tension(i) < -SLACK * self.levels.iter().map(|l| l.force).fold(1.0, f64::max)
+        })?;
+        Some((format!("cable.{}", self.model.cables[pushes].name), -self.tension(pushes) * force))
     }
 }
 

@@ -144,24 +144,35 @@ impl Equilibrium {
                             at = s;
                         }
                     };
+                    // Energy by three-point Gauss on parts of at most a quarter of a step.
+                    let stored = |a: f64, b: f64, state: &mut Plain, to: &mut dyn FnMut(f64, &mut Plain)| {
+                        let parts = ((b - a) * density * 4.0).ceil().max(1.0);
+                        let h = (b - a) / parts;
+                        let mut sum = 0.0;
+                        for part in 0..parts as usize {
+                            for (node, weight) in GAUSS {
+                                let s = a + h * (part as f64 + node);
+                                to(s, state);
+                                sum += h * weight * self.energy_density(beam, s, state, &threads);
+                            }
+                        }
+                        sum
+                    };
                     let mut a = stretch.s[0];
                     let inside =
                         places.iter().filter(|s| **s > stretch.s[0] + tiny && **s <= stretch.s[1] + tiny);
                     for &b in inside {
                         let b = b.min(stretch.s[1]);
-                        // Energy by three-point Gauss on parts of at most a quarter of a step.
-                        let parts = if energies { ((b - a) * density * 4.0).ceil().max(1.0) } else { 0.0 };
-                        for part in 0..parts as usize {
-                            let h = (b - a) / parts;
-                            for (node, weight) in GAUSS {
-                                let s = a + h * (part as f64 + node);
-                                to(s, &mut state);
-                                energy += h * weight * self.energy_density(beam, s, &state, &threads);
-                            }
+                        if energies {
+                            energy += stored(a, b, &mut state, &mut to);
                         }
                         to(b, &mut state);
                         out.samples.push(self.sample(beam, b, &state, &threads));
                         a = b;
+                    }
+                    // A stretch may end between two samples.
+                    if energies && stretch.s[1] - a > tiny {
+                        energy += stored(a, stretch.s[1], &mut state, &mut to);
                     }
                     // The stretch itself gives the state that the next one starts from, jumps included.
                     state = start;

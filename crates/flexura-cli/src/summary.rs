@@ -37,6 +37,9 @@ pub fn render(summary: &Summary) -> String {
 
 /// How far a study that did not converge has come: "stalled at 43 % of the load".
 pub fn standstill(status: Status, load_fraction: f64) -> String {
+    if load_fraction == 1.0 {
+        return status.word().replace('_', " ");
+    }
     format!("{} at {} % of the load", status.word().replace('_', " "), number(100.0 * load_fraction, 3))
 }
 

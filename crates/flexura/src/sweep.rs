@@ -176,6 +176,8 @@ pub struct Sample {
     pub error_estimate: Option<f64>,
     /// Why it did not converge, or why an output has no value.
     pub reason: Option<String>,
+    /// What to know though it went well.
+    pub warnings: Vec<String>,
 }
 
 /// The full grid over some parameters of a file.
@@ -269,6 +271,7 @@ impl<'a> Sweep<'a> {
             energy: None,
             error_estimate: None,
             reason: None,
+            warnings: Vec::new(),
         };
         let mut overrides = self.overrides.clone();
         for (axis, value) in self.axes.iter().zip(&sample.values) {
@@ -291,6 +294,7 @@ impl<'a> Sweep<'a> {
             }
         };
         sample.status = SampleStatus::Solved(solution.status);
+        sample.warnings.clone_from(&solution.warnings);
         if solution.status != Status::Converged {
             sample.reason = solution.reason;
             return sample;

@@ -277,7 +277,7 @@ impl Prepared {
         {
             let next = value + dp;
             if let Some([low, high]) = unknown.range
-                && (next < low || next > high)
+                && (next < low - 1e-9 * (high - low) || next > high + 1e-9 * (high - low))
             {
                 let name = &self.model().parameters[*parameter].name;
                 return Corrected::Failed(format!(

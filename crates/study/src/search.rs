@@ -14,8 +14,10 @@ use flexura_nonlinear::{NewtonEnd, NewtonOptions, PathWork, System, converge, co
 use flexura_solution::{Solution, Status};
 use flexura_spatial::Vector3;
 
-/// Strongest push, in EI/L² and EI/L of the beams at a node; the pushes are spread over two orders below it.
-const STRONGEST: f64 = 100.0;
+/// Strongest push, in EI/L² and EI/L of the beams at a node; the pushes are spread over the orders below it: a truss of
+/// hinged beams withstands far more than EI/L².
+const STRONGEST: f64 = 1e4;
+const ORDERS: f64 = 4.0;
 /// Way of the nodes, in L or radians, between states from which Newton's method starts.
 const APART: f64 = 0.25;
 /// Most steps of one creeping motion.
@@ -66,7 +68,7 @@ pub fn equilibria(
     let mut random = Random(seed);
     for _ in 0..guesses {
         let strengths = prepared.problem.node_strengths();
-        let size = STRONGEST * 10.0_f64.powf(-2.0 * random.next());
+        let size = STRONGEST * 10.0_f64.powf(-ORDERS * random.next());
         let kick: Vec<_> =
             strengths.iter().map(|[f, m]| [random.ball() * *m * size, random.ball() * *f * size]).collect();
         prepared.problem.rest();

@@ -292,6 +292,12 @@ impl Prepared {
                 f64::NAN,
             ),
         };
+        if let Some((cable, push)) = self.problem.slack_cable() {
+            let reason = format!(
+                "{cable} would have to push with {push:.6} N to have its length: it is slack; shorten it, or leave it out"
+            );
+            return Outcome { status: Status::Inconsistent, reason: Some(reason), error_estimate, path };
+        }
         if let Some((joint, shift, turn)) = self.problem.open_loop() {
             let reason = format!(
                 "the loop does not close: at {joint} its two sides are {:.4} mm and {:.4} deg apart; free one of its \

@@ -74,6 +74,16 @@ fn tell(arguments: &SweepArguments, samples: &[Sample]) {
         let plural = if count == 1 { "sample lacks" } else { "samples lack" };
         screen::warn(&format!("{count} converged {plural} the value of an output: {reason}"));
     }
+    for warning in common_warnings(samples) {
+        screen::warn(warning);
+    }
+    let warned = samples.iter().filter(|s| !own_warnings(s, &common_warnings(samples)).is_empty()).count();
+    if warned > 0 {
+        screen::warn(&format!(
+            "{warned} of {} samples have warnings, which stand in their rows",
+            samples.len()
+        ));
+    }
     if let Some(path) = &arguments.output {
         screen::note(&format!("wrote {} samples into {}", samples.len(), path.display()));
     }
@@ -115,13 +125,14 @@ fn csv(model: &Model, axes: &[Axis], samples: &[Sample]) -> String {
             _ => header.push(headed(&output.name, &output.unit)),
         }
     }
-    header.extend(["energy [J]", "error_estimate", "reason"].map(str::to_owned));
+    header.extend(["energy [J]", "error_estimate", "reason", "warnings"].map(str::to_owned));
 
     let mut text = line(header);
     // Debug prints the shortest text that reads back as the same number.
     let cell = |value: Option<f64>| {
         value.filter(|value| value.is_finite()).map_or_else(String::new, |value| format!("{value:?}"))
     };
+    let common = common_warnings(samples);
     for sample in samples {
         let mut row: Vec<String> = sample.values.iter().map(|value| cell(Some(*value))).collect();
         row.push(sample.status.word().to_owned());
@@ -136,9 +147,25 @@ fn csv(model: &Model, axes: &[Axis], samples: &[Sample]) -> String {
         }
         row.extend([cell(sample.energy), cell(sample.error_estimate)]);
         row.push(sample.reason.clone().unwrap_or_default());
+        row.push(own_warnings(sample, &common).join("; "));
         text += &line(row);
     }
     text
+}
+
+/// Warnings that every sample has: they are about the mechanism, and said once.
+fn common_warnings(samples: &[Sample]) -> Vec<&str> {
+    let first = samples.first().map_or(&[][..], |sample| &sample.warnings);
+    let everywhere = |warning: &String| samples.iter().all(|sample| sample.warnings.contains(warning));
+    if samples.len() < 2 {
+        return Vec::new();
+    }
+    first.iter().filter(|warning| everywhere(warning)).map(String::as_str).collect()
+}
+
+/// The warnings that are a sample's own.
+fn own_warnings<'a>(sample: &'a Sample, common: &[&str]) -> Vec<&'a str> {
+    sample.warnings.iter().map(String::as_str).filter(|warning| !common.contains(warning)).collect()
 }
 
 /// Cells with commas between them, in quotes where they hold one.
@@ -169,6 +196,8 @@ struct SampleDocument<'a> {
     status: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<&'a str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     unknowns: Option<Named<f64>>,
     outputs: Named<Value>,
@@ -180,10 +209,12 @@ impl<'a> SweepDocument<'a> {
     fn new(model: &'a Model, axes: &'a [Axis], samples: &'a [Sample]) -> Self {
         let is_complete = samples.iter().all(|sample| sample.status.is_converged());
         let name = |axis: &Axis| axis.parameter.clone();
+        let common = common_warnings(samples);
         let document = |sample: &'a Sample| SampleDocument {
             parameters: Named(axes.iter().map(name).zip(sample.values.iter().copied()).collect()),
             status: sample.status.word(),
             reason: sample.reason.as_deref(),
+            warnings: own_warnings(sample, &common),
             unknowns: (!sample.found.is_empty()).then(|| {
                 let names = model.unknowns.iter().map(|u| model.parameters[u.parameter].name.clone());
                 Named(names.zip(sample.found.iter().copied()).collect())

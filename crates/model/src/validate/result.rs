@@ -48,7 +48,10 @@ impl Model {
             let path = format!("{path}.range");
             if !low.is_finite() || !high.is_finite() || low >= high {
                 issues.add(path, format!("must increase, is [{low}, {high}]"));
-            } else if parameter.value < low || parameter.value > high {
+            } else if parameter.value < low - 0.05 * (high - low)
+                || parameter.value > high + 0.05 * (high - low)
+            {
+                // Derivatives at a bound look a little beyond it.
                 let unit =
                     if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
                 let message =
