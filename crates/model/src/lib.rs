@@ -15,6 +15,7 @@ mod material;
 mod notch;
 mod output;
 mod profile;
+mod tubes;
 mod validate;
 
 pub use beam::{Beam, BeamTheory, Curve, Distributed, End, LoadAxes, SectionFrame};
@@ -29,6 +30,7 @@ pub use material::{Material, Section, Shape};
 pub use notch::{Notch, NotchShape};
 pub use output::{Output, Probe, ProbeTarget, Quantity};
 pub use profile::{At, Profile};
+pub use tubes::{Tube, Tubes};
 pub use validate::{Issue, name_problem};
 
 use nalgebra::Vector3;
@@ -69,6 +71,8 @@ ids! {
     SpringId => springs: Spring,
     /// Position of a cable in [`Model::cables`].
     CableId => cables: Cable,
+    /// Position of a set of concentric tubes in [`Model::tubes`].
+    TubesId => tubes: Tubes,
     /// Position of a load in [`Model::loads`].
     LoadId => loads: Load,
 }
@@ -109,6 +113,8 @@ pub struct Model {
     pub springs: Vec<Spring>,
     /// Cables.
     pub cables: Vec<Cable>,
+    /// Concentric tubes.
+    pub tubes: Vec<Tubes>,
     /// Lumped masses on beams.
     pub masses: Vec<PointMass>,
     /// Point forces and moments.

@@ -1,6 +1,6 @@
 //! What the user wants to read off a result.
 
-use crate::{At, BeamId, BodyId, CableId, JointId, SpringId};
+use crate::{At, BeamId, BodyId, CableId, JointId, SpringId, TubesId};
 use flexura_expression::Formula;
 
 /// A named output.
@@ -41,6 +41,8 @@ pub enum ProbeTarget {
     Spring(SpringId),
     /// A cable.
     Cable(CableId),
+    /// The tip of concentric tubes: position, rotation, tangent.
+    Tubes(TubesId),
     /// The whole mechanism.
     Model,
 }

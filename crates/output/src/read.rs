@@ -79,6 +79,7 @@ pub fn solution_of(document: &Document, model: &Model) -> Result<Solution, ReadE
         springs: Vec::new(),
         couplings: Vec::new(),
         cables: Vec::new(),
+        tubes: Vec::new(),
         tangents: Vec::new(),
         sensitivities: None,
         found: Vec::new(),

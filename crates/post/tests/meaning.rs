@@ -78,6 +78,7 @@ fn strip(force: f64, moment: f64) -> (Model, Solution) {
         springs: Vec::new(),
         couplings: Vec::new(),
         cables: Vec::new(),
+        tubes: Vec::new(),
         tangents: Vec::new(),
         sensitivities: None,
         found: Vec::new(),

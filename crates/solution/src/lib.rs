@@ -85,6 +85,8 @@ pub struct Solution {
     pub couplings: Vec<f64>,
     /// One for each cable.
     pub cables: Vec<CableSolution>,
+    /// One for each set of concentric tubes.
+    pub tubes: Vec<TubesSolution>,
     /// Small motions and compliances of what an output or the caller asked for.
     pub tangents: Vec<TangentSolution>,
     /// Of every output by every parameter, if asked for.
@@ -161,6 +163,30 @@ pub struct CableSolution {
     pub length: f64,
     /// Tension, N.
     pub tension: f64,
+}
+
+/// Concentric tubes along their common axis, from where they leave the guide to the tip of the first.
+#[derive(Clone, Debug, Default)]
+pub struct TubesSolution {
+    /// Samples, s increasing.
+    pub samples: Vec<TubesSample>,
+}
+
+/// The common axis at one place.
+#[derive(Clone, Debug)]
+pub struct TubesSample {
+    /// Arc length from where the tubes leave the guide, m.
+    pub s: f64,
+    /// Pose of the first tube's section, global.
+    pub pose: Pose,
+    /// Force and moment that all tubes carry together, on the part before s, global.
+    pub wrench: Wrench,
+    /// k1, k2, k3 of the first tube, 1/m.
+    pub curvature: Vector3<f64>,
+    /// Turn of each tube that is there relative to the first: its number and angle, rad.
+    pub angles: Vec<(usize, f64)>,
+    /// Torque that each tube that is there carries about the axis: its number and N·m.
+    pub torques: Vec<(usize, f64)>,
 }
 
 /// How one body or station moves when the equilibrium is disturbed a little.

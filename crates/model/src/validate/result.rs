@@ -24,6 +24,7 @@ impl Model {
                 ProbeTarget::Body(id) => id.0 < self.bodies.len(),
                 ProbeTarget::Joint(id) => id.0 < self.joints.len(),
                 ProbeTarget::Spring(id) => id.0 < self.springs.len(),
+                ProbeTarget::Tubes(id) => id.0 < self.tubes.len(),
                 ProbeTarget::Cable(id) => id.0 < self.cables.len(),
                 ProbeTarget::Model => true,
             };

@@ -164,6 +164,7 @@ pub fn solution() -> Solution {
         joints: vec![JointSolution { coordinates: vec![-0.8], efforts: vec![0.0], wrench: Wrench::zero() }],
         couplings: Vec::new(),
         cables: Vec::new(),
+        tubes: Vec::new(),
         tangents: Vec::new(),
         sensitivities: None,
         found: Vec::new(),
