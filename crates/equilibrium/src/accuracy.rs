@@ -142,6 +142,14 @@ impl Equilibrium {
             }
             all.push(expected);
         }
+        for tip in &self.tips {
+            let (mut turn, mut shift) = (Vector3::zeros(), Vector3::zeros());
+            for (unknown, column) in &tip.columns {
+                turn += crate::assembly::rows(column, 0) * step[*unknown];
+                shift += crate::assembly::rows(column, 3) * step[*unknown];
+            }
+            all.push(vec![ExpectedEnd { pose: tip.pose.unwrap_or(Pose::identity()), turn, shift }]);
+        }
         all
     }
 
@@ -157,6 +165,14 @@ impl Equilibrium {
                 let moved = now.position - before.pose.position - before.shift;
                 largest = largest.max(turned.norm()).max(moved.norm() * shorter);
             }
+        }
+        for ((tip, before), nest) in
+            self.tips.iter().zip(expected.iter().skip(self.ends.len()).flatten()).zip(&self.lowered.nests)
+        {
+            let now = tip.pose.unwrap_or(Pose::identity());
+            let turned = log(&(now.rotation * before.pose.rotation.inverse())) - before.turn;
+            let moved = now.position - before.pose.position - before.shift;
+            largest = largest.max(turned.norm()).max(moved.norm() / nest.tip());
         }
         largest
     }

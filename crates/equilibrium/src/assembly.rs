@@ -101,6 +101,7 @@ impl Equilibrium {
             self.evaluate_joint(joint, &mut sink);
         }
         self.evaluate_gears(&mut sink);
+        self.evaluate_nests(&mut sink);
         self.evaluate_node_loads(&mut sink);
         for ([moment, force], slot) in self.kick.0.iter().zip(&self.layout.nodes) {
             let part = self.kick.1 * self.load;

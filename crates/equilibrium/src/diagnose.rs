@@ -105,6 +105,15 @@ impl Equilibrium {
             let name = format!("cable.{}", cable.name);
             add(format!("{name}: tension"), format!("{name}: length"), usize::from(slot.is_some()));
         }
+        for (tubes, slot) in self.model.tubes.iter().zip(&self.layout.nests) {
+            let name = format!("tubes.{}", tubes.name);
+            add(format!("{name}: moment at the guide"), format!("{name}: moment at the tip"), 3);
+            add(
+                format!("{name}: torques at the guide"),
+                format!("{name}: no torque at the ends of the tubes"),
+                slot.count - 3,
+            );
+        }
         census.warnings.extend(self.wide_strips());
         census
     }
@@ -210,6 +219,11 @@ impl Equilibrium {
             }
         }
         twice.dedup();
+        for (tubes, slot) in self.model.tubes.iter().zip(&self.layout.nests) {
+            if part(slot.unknown, slot.count) > SEEN {
+                twice.push(format!("tubes.{}", tubes.name));
+            }
+        }
         if !loose.is_empty() {
             return ProblemError::new(
                 loose[0].clone(),

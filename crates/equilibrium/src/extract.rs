@@ -84,6 +84,8 @@ impl Equilibrium {
         }
         let mut warnings = self.warnings().to_vec();
         warnings.extend(self.state_warnings());
+        let (tubes, stored) = self.sample_nests(samples);
+        energy += stored * scale.moment();
         Solution {
             status: Status::Converged,
             reason: None,
@@ -102,6 +104,7 @@ impl Equilibrium {
             springs,
             couplings: self.multipliers(),
             cables,
+            tubes,
             tangents: Vec::new(),
             sensitivities: None,
             found: Vec::new(),

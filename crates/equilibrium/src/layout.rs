@@ -72,6 +72,8 @@ pub(crate) struct Layout {
     pub gears: Vec<NumberSlot>,
     /// None where the tension is given.
     pub ropes: Vec<Option<NumberSlot>>,
+    /// Of concentric tubes: the moment where they leave their guide, then the torques of all but the first.
+    pub nests: Vec<WrenchSlot>,
     /// Unknowns of the interface.
     pub interface: usize,
     /// All unknowns.
@@ -146,6 +148,9 @@ impl Layout {
         for slot in numbers {
             add(slot.unknown, slot.unknown + 1, Vector3::zeros());
         }
+        for (nest, slot) in lowered.nests.iter().zip(&self.nests) {
+            add(slot.unknown, slot.unknown + slot.count, lowered.carrier_pose(&nest.base).position);
+        }
         blocks
     }
 
@@ -177,6 +182,15 @@ impl Layout {
             .iter()
             .map(|rope| matches!(rope.law, RopeLaw::Length(_)).then(|| counter.number()))
             .collect();
+        let nests = lowered
+            .nests
+            .iter()
+            .map(|nest| {
+                let count = 3 + nest.others();
+                let (state, unknown) = counter.take(count, count);
+                WrenchSlot { state, unknown, count }
+            })
+            .collect();
         let interface = counter.unknown;
         for (slots, mesh) in spans.iter_mut().zip(meshes) {
             let eliminated = mesh.segments.len().saturating_sub(2);
@@ -190,6 +204,7 @@ impl Layout {
             joints,
             gears,
             ropes,
+            nests,
             interface,
             unknowns: counter.unknown,
             state: counter.state,

@@ -41,6 +41,7 @@ mod system;
 mod tangents;
 #[cfg(test)]
 mod tests;
+mod tubes;
 
 pub use neighbour::Law;
 pub use tangents::CENTRAL;

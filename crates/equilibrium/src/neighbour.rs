@@ -48,6 +48,12 @@ impl Equilibrium {
             && lowered.joints.len() == self.lowered.joints.len()
             && lowered.gears.len() == self.lowered.gears.len()
             && lowered.ropes.len() == self.lowered.ropes.len()
+            && lowered.nests.len() == self.lowered.nests.len()
+            && lowered
+                .nests
+                .iter()
+                .zip(&self.lowered.nests)
+                .all(|(a, b)| a.ends.len() == b.ends.len() && a.others() == b.others())
             && lowered.spans.len() == self.lowered.spans.len()
             && lowered.spans.iter().zip(&self.lowered.spans).all(|(a, b)| {
                 a.determinate == b.determinate

@@ -109,6 +109,8 @@ impl Equilibrium {
         self.chains = vec![Chain::default(); self.meshes.len()];
         self.gaps = self.meshes.iter().map(|m| vec![[0.0; BLOCK]; m.segments.len() - 1]).collect();
         self.r = vec![0.0; self.layout.interface];
+        self.tube_steps = self.lowered.nests.iter().map(|nest| nest.steps(accuracy)).collect();
+        self.tips = vec![crate::tubes::Tip::default(); self.lowered.nests.len()];
         self.factorised = false;
         let blocks = self.layout.blocks(&self.lowered);
         self.tangent.arrange(self.layout.interface, &blocks);
@@ -126,6 +128,11 @@ impl Equilibrium {
                 if grow { wanted.max(present) } else { wanted }
             });
         }
+        for (nest, steps) in self.lowered.nests.iter().zip(&mut self.tube_steps) {
+            for (present, wanted) in steps.iter_mut().zip(nest.steps(accuracy)) {
+                *present = if grow { wanted.max(*present) } else { wanted };
+            }
+        }
         self.sum_known_forces();
     }
 
@@ -135,11 +142,15 @@ impl Equilibrium {
             let law: &BeamLaw = &self.lowered.beams[span.beam];
             mesh.restep(law, span, |_, present| ((present as f64 * factor).ceil() as usize).max(present + 1));
         }
+        for steps in self.tube_steps.iter_mut().flatten() {
+            *steps = ((*steps as f64 * factor).ceil() as usize).max(*steps + 1);
+        }
         self.sum_known_forces();
     }
 
     pub(crate) fn total_steps(&self) -> usize {
-        self.meshes.iter().map(SpanMesh::steps).sum()
+        let tubes: usize = self.tube_steps.iter().flatten().sum();
+        self.meshes.iter().map(SpanMesh::steps).sum::<usize>() + tubes
     }
 
     /// Sums the known forces anew, as the mesh or the loads have changed.
@@ -214,6 +225,9 @@ impl Equilibrium {
         };
         for (to, from) in numbers(&self.layout).into_iter().zip(numbers(&old.layout)) {
             self.x[to] = old.x[from];
+        }
+        for (to, from) in self.layout.nests.iter().zip(&old.layout.nests) {
+            copy(&mut self.x, to.state, &old.x, from.state, to.count);
         }
         for i in 0..self.layout.spans.len() {
             let (to, from) = (&self.layout.spans[i], &old.layout.spans[i]);

@@ -108,6 +108,14 @@ impl Equilibrium {
         {
             x[slot.state] = multiplier * gear.unit / scale.moment();
         }
+        for (slot, tubes) in self.layout.nests.iter().zip(&solution.tubes) {
+            let Some(sample) = tubes.samples.first() else { continue };
+            let moment = scale.wrench_in(&sample.wrench).moment;
+            x[slot.state..slot.state + 3].copy_from_slice(moment.as_slice());
+            for (i, (_, torque)) in sample.torques.iter().enumerate().skip(1).take(slot.count - 3) {
+                x[slot.state + 2 + i] = torque / scale.moment();
+            }
+        }
         for (slot, cable) in self.layout.ropes.iter().zip(&solution.cables) {
             if let Some(slot) = slot {
                 x[slot.state] = cable.tension / scale.force;

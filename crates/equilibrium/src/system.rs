@@ -44,6 +44,9 @@ pub struct Equilibrium {
     scratch: Vec<f64>,
     /// The step by which the state was last moved.
     pub(crate) last_step: Vec<f64>,
+    /// Steps of every stretch of concentric tubes, and their tips at the last evaluation.
+    pub(crate) tube_steps: Vec<Vec<usize>>,
+    pub(crate) tips: Vec<crate::tubes::Tip>,
     /// For each joint the closure rows without which its loop closes already; empty where every row is needed.
     pub(crate) slack: Vec<[bool; 6]>,
     /// Wrenches on the nodes besides the loads, in proportion to these, and how much of them acts: (moment, force) of each node.
@@ -104,6 +107,8 @@ impl Equilibrium {
             weights: Vec::new(),
             scratch: Vec::new(),
             last_step: Vec::new(),
+            tube_steps: Vec::new(),
+            tips: Vec::new(),
             slack: Vec::new(),
             kick: (Vec::new(), 0.0),
             drag: (Vec::new(), 0.0),
@@ -309,7 +314,8 @@ impl Equilibrium {
         let inner =
             self.layout.spans.iter().flat_map(|s| s.inner.iter().map(|i| (i.state + 7, i.unknown + 6, 6)));
         let numbers = self.layout.gears.iter().chain(self.layout.ropes.iter().flatten());
-        wrenches.chain(inner).chain(numbers.map(|slot| (slot.state, slot.unknown, 1)))
+        let nests = self.layout.nests.iter().map(|slot| (slot.state, slot.unknown, slot.count));
+        wrenches.chain(inner).chain(numbers.map(|slot| (slot.state, slot.unknown, 1))).chain(nests)
     }
 }
 

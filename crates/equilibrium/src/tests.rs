@@ -117,6 +117,7 @@ fn everything() -> Model {
         law: SpringLaw::Linear { stiffness: 0.8, rest_length: None },
     });
     add_mounts_couplings_and_cables(&mut m);
+    add_tubes(&mut m);
     let load = |name: &str, target, frame| Load {
         name: name.into(),
         target,
@@ -206,6 +207,48 @@ fn add_mounts_couplings_and_cables(m: &mut Model) {
     for (beam, law) in [(2, CableLaw::Length(0.9)), (5, CableLaw::Length(0.8)), (5, CableLaw::Tension(0.4))] {
         let route = vec![channel(beam, 0.0, 1.0, winding())];
         m.cables.push(Cable { name: format!("anchored {}", m.cables.len()), route, law });
+    }
+}
+
+/// Concentric tubes on a body and on the ground; the second ends first, the third is straight.
+fn add_tubes(m: &mut Model) {
+    let round = |ei: f64| Section {
+        name: format!("round{ei}"),
+        shape: Shape::Stiffness {
+            ea: f64::INFINITY.into(),
+            gj: (0.7 * ei).into(),
+            ei2: ei.into(),
+            ei3: ei.into(),
+            ga2: None,
+            ga3: None,
+            mass_per_length: None,
+        },
+        plane_strain: false,
+    };
+    let first = m.sections.len();
+    m.sections.extend([round(0.5), round(0.9), round(1.4)]);
+    let tube = |i: usize, straight: f64, curved: f64, curvature: f64, rotation: f64| Tube {
+        material: None,
+        section: SectionId(first + i),
+        straight,
+        curved,
+        curvature,
+        rotation,
+        translation: -0.1 * i as f64,
+    };
+    let tubes = vec![tube(0, 0.6, 0.5, 0.9, 0.4), tube(1, 0.5, 0.4, 0.7, -0.8), tube(2, 0.4, 0.2, 0.0, 1.1)];
+    let frame = |mount| Frame {
+        mount,
+        pose: Pose::new(exp(&Vector3::new(0.1, 0.4, -0.2)), Vector3::new(0.1, 0.0, 0.2)),
+    };
+    for (name, mount) in [("arm", Mount::Body(BodyId(1))), ("leg", Mount::Ground)] {
+        m.tubes.push(Tubes {
+            name: name.into(),
+            base: frame(mount),
+            tubes: tubes.clone(),
+            force: Vector3::new(0.2, -0.3, 0.1),
+            moment: Vector3::new(0.05, 0.1, -0.1),
+        });
     }
 }
 

@@ -159,6 +159,7 @@ pub(crate) struct Lowered {
     pub gears: Vec<Gear>,
     pub springs: Vec<Link>,
     pub ropes: Vec<Rope>,
+    pub nests: Vec<crate::tubes::Nest>,
     /// For each beam the hubs along it: arc length (m) and node.
     pub hubs: Vec<Vec<(f64, usize)>>,
     pub warnings: Vec<String>,
@@ -193,6 +194,7 @@ pub(crate) fn lower(
         gears: Vec::new(),
         springs: Vec::new(),
         ropes: Vec::new(),
+        nests: Vec::new(),
         hubs: Vec::new(),
         warnings: Vec::new(),
     };
@@ -229,6 +231,10 @@ pub(crate) fn lower(
     for cable in &model.cables {
         cables::lower_cable(&mut lowered, cable)?;
     }
+    for tubes in &model.tubes {
+        let nest = crate::tubes::lower(model, &lowered, tubes)?;
+        lowered.nests.push(nest);
+    }
     Ok(lowered)
 }
 
@@ -237,6 +243,9 @@ fn scale_of(model: &Model, beams: &[BeamLaw]) -> Result<Scale, ProblemError> {
     if let Some(longest) = beams.iter().max_by(|a, b| a.length.total_cmp(&b.length)) {
         let length = longest.length;
         return Ok(Scale { length, force: longest.stiffness() / (length * length) });
+    }
+    if let Some(scale) = crate::tubes::size(model)? {
+        return Ok(scale);
     }
     if model.bodies.is_empty() {
         return Err(ProblemError::new(
@@ -273,7 +282,7 @@ pub(crate) fn point_load(
 
 impl Lowered {
     /// The node of what carries a frame; None for the ground.
-    fn node_of(&self, mount: Mount) -> Option<usize> {
+    pub fn node_of(&self, mount: Mount) -> Option<usize> {
         match mount {
             Mount::Ground => None,
             Mount::Body(id) => Some(id.0),
