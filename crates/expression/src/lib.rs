@@ -51,7 +51,7 @@ pub fn reserved(name: &str) -> Option<&'static str> {
     if expression::Call::find(name).is_some() {
         return Some("a function");
     }
-    if ["beam", "body", "joint", "spring", "cable", "model", "nan"].contains(&name) {
+    if ["beam", "body", "joint", "spring", "cable", "tubes", "model", "nan"].contains(&name) {
         return Some("a word of the expressions");
     }
     None

@@ -205,7 +205,7 @@ impl<'a> Context<'a> {
 
     /// There is nothing of this name.
     pub(crate) fn unknown_name(&self, named: Named, name: &str) -> (String, String) {
-        let word = named.word();
+        let word = named.noun();
         if self.is_full() {
             return (String::new(), String::new());
         }
@@ -365,6 +365,7 @@ fn names(root: &Node) -> BTreeMap<Named, BTreeMap<&str, usize>> {
         Named::Joint,
         Named::Spring,
         Named::Cable,
+        Named::Tubes,
     ];
     for named in kinds {
         let entries = root.get(named.word()).map_or(&[][..], |entry| entry.node.entries());

@@ -8,6 +8,7 @@ mod joint;
 mod load;
 mod result;
 mod section;
+mod tubes;
 
 use section::check_section_alone;
 
@@ -140,6 +141,7 @@ impl Model {
         self.check_couplings(&mut issues);
         self.check_loads(&mut issues);
         self.check_cables(&mut issues);
+        self.check_tubes(&mut issues);
         self.check_outputs(&mut issues);
         self.check_inverse(&mut issues);
         issues.0
@@ -155,6 +157,7 @@ impl Model {
         issues.names("coupling", self.couplings.iter().map(|c| c.name.as_str()));
         issues.names("spring", self.springs.iter().map(|s| s.name.as_str()));
         issues.names("cable", self.cables.iter().map(|c| c.name.as_str()));
+        issues.names("tubes", self.tubes.iter().map(|t| t.name.as_str()));
         issues.names("mass", self.masses.iter().map(|m| m.name.as_str()));
         issues.names("load", self.loads.iter().map(|l| l.name.as_str()));
         issues.names("output", self.outputs.iter().map(|o| o.name.as_str()));

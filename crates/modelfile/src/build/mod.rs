@@ -10,6 +10,7 @@ mod load;
 mod material;
 mod place;
 mod result;
+mod tubes;
 mod unknown;
 
 use crate::context::Context;
@@ -56,6 +57,7 @@ pub(crate) fn model(context: &Context<'_>) -> Option<Model> {
     model.couplings = couplings;
     model.springs = each(context, "spring", load::spring);
     model.cables = each(context, "cable", cable::cable);
+    model.tubes = each(context, "tubes", tubes::tubes);
     model.masses = each(context, "mass", load::mass);
     model.loads = each(context, "load", load::load);
     let mut outputs = Vec::new();

@@ -8,6 +8,7 @@ mod joints;
 mod relations;
 mod sections;
 mod tables;
+mod tubes;
 
 use flexura_expression::Dimension;
 pub(crate) use tables::*;
@@ -70,6 +71,7 @@ pub(crate) enum Named {
     Joint,
     Spring,
     Cable,
+    Tubes,
 }
 
 impl Named {
@@ -82,6 +84,15 @@ impl Named {
             Named::Joint => "joint",
             Named::Spring => "spring",
             Named::Cable => "cable",
+            Named::Tubes => "tubes",
+        }
+    }
+
+    /// One such thing, within a sentence.
+    pub(crate) fn noun(self) -> &'static str {
+        match self {
+            Named::Tubes => "set of tubes",
+            other => other.word(),
         }
     }
 }

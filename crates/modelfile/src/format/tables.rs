@@ -4,6 +4,7 @@ use super::attachments::{BODY, LOAD, MASS, SPRING};
 use super::joints::{END, JOINT};
 use super::relations::{CABLE, COUPLING, UNKNOWN};
 use super::sections::SECTION;
+use super::tubes::TUBES;
 use super::{Key, Named, Need, Shape, Table, Variant, Variants};
 use Need::{Default, Optional, Required};
 use flexura_expression::Dimension as D;
@@ -77,6 +78,13 @@ pub(crate) static FILE: Table = table(
             "Springs between two points.",
         ),
         key("cable", Shape::NamedTables(&CABLE), Optional, "{ flexor = { ... } }", "Cables (tendons)."),
+        key(
+            "tubes",
+            Shape::NamedTables(&TUBES),
+            Optional,
+            "{ robot = { ... } }",
+            "Concentric pre-curved tubes.",
+        ),
         key("mass", Shape::NamedTables(&MASS), Optional, "{ sensor = { ... } }", "Lumped masses on beams."),
         key("load", Shape::NamedTables(&LOAD), Optional, "{ push = { ... } }", "Forces and moments."),
         key(

@@ -13,12 +13,14 @@ use crate::format::Named;
 use crate::reader::station;
 use crate::tree::{Entry, Node, Value};
 use flexura_expression::{Binding, Expression, ExpressionError, Formula, Kind, Reference, Segment, nearest};
-use flexura_model::{At, BeamId, BodyId, CableId, JointId, Model, Output, Probe, ProbeTarget, SpringId};
-use readable::{of_beam, of_body, of_joint, of_line, of_model};
+use flexura_model::{
+    At, BeamId, BodyId, CableId, JointId, Model, Output, Probe, ProbeTarget, SpringId, TubesId,
+};
+use readable::{of_beam, of_body, of_joint, of_line, of_model, of_tubes};
 use std::cell::Cell;
 use walk::Meaning;
 
-const ROOTS: &[&str] = &["beam", "body", "joint", "spring", "cable", "model"];
+const ROOTS: &[&str] = &["beam", "body", "joint", "spring", "cable", "tubes", "model"];
 
 /// An output with what is known of its dimension.
 pub(super) struct Built {
@@ -137,6 +139,7 @@ impl Results<'_, '_> {
             "joint" => Named::Joint,
             "spring" => Named::Spring,
             "cable" => Named::Cable,
+            "tubes" => Named::Tubes,
             "model" => return walk.quantity(ProbeTarget::Model, &of_model(), "model.energy"),
             "output" => {
                 let error = ExpressionError::new("an output cannot refer to another output", root_span);
@@ -155,9 +158,10 @@ impl Results<'_, '_> {
             Named::Joint => "joint.way.coordinate",
             Named::Spring => "spring.ligament.tension",
             Named::Cable => "cable.flexor.tension",
+            Named::Tubes => "tubes.robot.position.z",
             _ => "body.slider.position.x",
         };
-        let (name, span) = walk.name(&format!("the name of a {root}"), example)?;
+        let (name, span) = walk.name(&format!("the name of a {}", named.noun()), example)?;
         if named == Named::Body && name == "ground" {
             return Err(ExpressionError::new("the ground does not move", span));
         }
@@ -181,6 +185,7 @@ impl Results<'_, '_> {
             }
             Named::Spring => walk.quantity(ProbeTarget::Spring(SpringId(position)), &of_line(), example),
             Named::Cable => walk.quantity(ProbeTarget::Cable(CableId(position)), &of_line(), example),
+            Named::Tubes => walk.quantity(ProbeTarget::Tubes(TubesId(position)), &of_tubes(), example),
             _ => walk.quantity(ProbeTarget::Body(BodyId(position)), &of_body(), example),
         }
     }

@@ -143,6 +143,15 @@ pub(super) fn of_line() -> Vec<Readable> {
     ]
 }
 
+/// Of the tip of concentric tubes.
+pub(super) fn of_tubes() -> Vec<Readable> {
+    vec![
+        vector("position", Quantity::Position, Dimension::LENGTH),
+        vector("rotation", Quantity::Rotation, Dimension::ANGLE),
+        vector("tangent", Quantity::Tangent, Dimension::NUMBER),
+    ]
+}
+
 pub(super) fn of_model() -> Vec<Readable> {
     vec![number("energy", Quantity::Energy, Dimension::MOMENT)]
 }
