@@ -23,6 +23,7 @@ pub fn render(summary: &Summary) -> String {
         couplings(summary),
         springs(summary),
         cables(summary),
+        tubes(summary),
     ];
     for section in sections.into_iter().filter(|section| !section.is_empty()) {
         text.push('\n');
@@ -215,6 +216,20 @@ fn cables(summary: &Summary) -> Table {
     let mut table = Table::new(&["cables", "length", "tension"]);
     for (name, length, tension) in &summary.cables {
         table.row(vec![name.clone(), quantity(*length, "m", 5), quantity(*tension, "N", 5)]);
+    }
+    table
+}
+
+fn tubes(summary: &Summary) -> Table {
+    let mut table = Table::new(&["tubes", "tip", "length", "torque at the base"]);
+    for tubes in &summary.tubes {
+        let torque = |torque: &f64| quantity(quiet(*torque, "N*m", summary), "N*m", 4);
+        table.row(vec![
+            tubes.name.clone(),
+            vector(<[f64; 3]>::from(tubes.tip).map(|c| quiet(c, "m", summary)), "m", 6),
+            quantity(tubes.length, "m", 5),
+            tubes.torques.iter().map(torque).collect::<Vec<_>>().join("; "),
+        ]);
     }
     table
 }

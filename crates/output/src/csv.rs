@@ -18,7 +18,7 @@ pub fn beams_csv(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
     let mut text = String::from(HEADER);
     for ((beam, result), stress) in model.beams.iter().zip(&solution.beams).zip(&evaluation.beams) {
         let name = quoted(&beam.name);
-        let rotations = section_quaternions(&result.samples);
+        let rotations = section_quaternions(result.samples.iter().map(|sample| &sample.pose.rotation));
         for (i, sample) in result.samples.iter().enumerate() {
             text.push_str(&name);
             let [position, force, moment, curvature]: [[f64; 3]; 4] = [

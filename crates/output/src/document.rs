@@ -3,12 +3,14 @@
 use crate::derivatives::{compliances, elasticities, motions, sensitivities};
 use crate::wire::{
     BeamDocument, BodyDocument, CableDocument, CouplingDocument, Document, EquilibriumDocument,
-    JointDocument, SpringDocument, Value, WorkDocument,
+    JointDocument, SpringDocument, TubesDocument, Value, WorkDocument,
 };
 use crate::{Named, OutputError};
-use flexura_model::Model;
+use flexura_model::{Model, Tubes};
 use flexura_post::{BeamStress, Evaluation, OutputValue};
-use flexura_solution::{BeamSample, BeamSolution, CableSolution, Solution, Status, Work};
+use flexura_solution::{
+    BeamSample, BeamSolution, CableSolution, Solution, Status, TubesSample, TubesSolution, Work,
+};
 use flexura_spatial::{Pose, UnitQuaternion, Vector3};
 
 /// The result document of a solve.
@@ -64,6 +66,9 @@ pub fn document(
         )?,
         cables: Named::collect(model.cables.iter().zip(&solution.cables), |(cable, result)| {
             Ok((cable.name.clone(), cable_document(&format!("cables.{}", cable.name), result)?))
+        })?,
+        tubes: Named::collect(model.tubes.iter().zip(&solution.tubes), |(tubes, result)| {
+            Ok((tubes.name.clone(), tubes_document(tubes, result)?))
         })?,
         compliance: has_tangents.then(|| compliances(model, solution)).transpose()?,
         compliance_rows: has_tangents.then(|| ["x", "y", "z", "rx", "ry", "rz"].map(str::to_owned)),
@@ -164,6 +169,34 @@ fn cable_document(path: &str, result: &CableSolution) -> Result<CableDocument, O
     })
 }
 
+fn tubes_document(tubes: &Tubes, result: &TubesSolution) -> Result<TubesDocument, OutputError> {
+    let path = format!("tubes.{}", tubes.name);
+    let samples = || result.samples.iter();
+    let vectors = |field: &str, pick: fn(&TubesSample) -> Vector3<f64>| {
+        finite_vectors(&path, field, samples().map(|sample| pick(sample).into()))
+    };
+    // A tube is there from the guide to its end, so its list is the beginning of one over all samples.
+    let by_tube = |field: &str, pick: fn(&TubesSample) -> &[(usize, f64)]| {
+        let one = |tube: usize| {
+            let value =
+                |sample| pick(sample).iter().find(|(number, _)| *number == tube).map(|(_, value)| *value);
+            finite_list(&format!("{path}.{field}[{tube}]"), samples().map_while(value))
+        };
+        (0..tubes.tubes.len()).map(one).collect::<Result<Vec<_>, _>>()
+    };
+    let rotations = section_quaternions(samples().map(|sample| &sample.pose.rotation));
+    Ok(TubesDocument {
+        s: finite_list(&format!("{path}.s"), samples().map(|sample| sample.s))?,
+        position: vectors("position", |sample| sample.pose.position)?,
+        rotation: finite_vectors(&path, "rotation", rotations.into_iter())?,
+        force: vectors("force", |sample| sample.wrench.force)?,
+        moment: vectors("moment", |sample| sample.wrench.moment)?,
+        curvature: vectors("curvature", |sample| sample.curvature)?,
+        angles: by_tube("angles", |sample| &sample.angles)?,
+        torques: by_tube("torques", |sample| &sample.torques)?,
+    })
+}
+
 fn work(work: &Work) -> WorkDocument {
     WorkDocument {
         newton_steps: work.newton_steps,
@@ -186,10 +219,11 @@ fn beam_document(
     };
     let list =
         |field: &str, values: &mut dyn Iterator<Item = f64>| finite_list(&format!("{path}.{field}"), values);
+    let rotations = section_quaternions(result.samples.iter().map(|sample| &sample.pose.rotation));
     Ok(BeamDocument {
         s: list("s", &mut result.samples.iter().map(|sample| sample.s))?,
         position: vectors("position", |sample| sample.pose.position)?,
-        rotation: finite_vectors(path, "rotation", section_quaternions(&result.samples).into_iter())?,
+        rotation: finite_vectors(path, "rotation", rotations.into_iter())?,
         force: vectors("force", |sample| sample.wrench.force)?,
         moment: vectors("moment", |sample| sample.wrench.moment)?,
         curvature: vectors("curvature", |sample| sample.curvature)?,
@@ -218,12 +252,14 @@ pub(crate) fn quaternion(rotation: &UnitQuaternion<f64>) -> [f64; 4] {
     [sign * q.w, sign * q.i, sign * q.j, sign * q.k].map(|component| component + 0.0)
 }
 
-/// (w, x, y, z) of a beam's sections: of the two signs always the one nearer to the section before, so that
-/// the components run smoothly along a beam that turns by more than half a turn.
-pub(crate) fn section_quaternions(samples: &[BeamSample]) -> Vec<[f64; 4]> {
-    let mut quaternions: Vec<[f64; 4]> = Vec::with_capacity(samples.len());
-    for sample in samples {
-        let mut q = quaternion(&sample.pose.rotation);
+/// (w, x, y, z) of the sections along an axis: of the two signs always the one nearer to the section before, so that
+/// the components run smoothly along one that turns by more than half a turn.
+pub(crate) fn section_quaternions<'a>(
+    rotations: impl Iterator<Item = &'a UnitQuaternion<f64>>,
+) -> Vec<[f64; 4]> {
+    let mut quaternions: Vec<[f64; 4]> = Vec::with_capacity(rotations.size_hint().0);
+    for rotation in rotations {
+        let mut q = quaternion(rotation);
         if let Some(before) = quaternions.last()
             && before.iter().zip(&q).map(|(a, b)| a * b).sum::<f64>() < 0.0
         {

@@ -23,7 +23,7 @@ pub use svg::shape_svg;
 pub use vtk::model_vtp;
 pub use wire::{
     BeamDocument, BodyDocument, CableDocument, CouplingDocument, Document, Elasticity, EquilibriumDocument,
-    JointDocument, SpringDocument, Value, WorkDocument,
+    JointDocument, SpringDocument, TubesDocument, Value, WorkDocument,
 };
 
 /// Why something cannot be written.

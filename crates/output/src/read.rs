@@ -1,10 +1,11 @@
 //! The way back: a result document as the solution that a later study starts from.
 
 use crate::Named;
-use crate::wire::{BeamDocument, BodyDocument, Document, JointDocument};
+use crate::wire::{BeamDocument, BodyDocument, Document, JointDocument, TubesDocument};
 use flexura_model::{Attachment, JointKind, Model, Mount};
 use flexura_solution::{
-    BeamSample, BeamSolution, CableSolution, JointSolution, Solution, SpringSolution, Status, Work,
+    BeamSample, BeamSolution, CableSolution, JointSolution, Solution, SpringSolution, Status, TubesSample,
+    TubesSolution, Work,
 };
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, Wrench};
 
@@ -88,7 +89,7 @@ pub fn solution_of(document: &Document, model: &Model) -> Result<Solution, ReadE
         unstable_directions: document.unstable_directions,
         stability_reason: document.stability_reason.clone(),
     };
-    // Springs, couplings and cables follow from the rest; one that the document does not know is no obstacle.
+    // Springs, couplings, cables and tubes follow from the rest; one that the document does not know is no obstacle.
     let springs = model.springs.iter().map(|spring| {
         let known = document.springs.get(&spring.name);
         SpringSolution {
@@ -109,6 +110,11 @@ pub fn solution_of(document: &Document, model: &Model) -> Result<Solution, ReadE
         None => CableSolution { course: Vec::new(), length: 0.0, tension: 0.0 },
     });
     solution.cables = cables.collect();
+    let tubes = model.tubes.iter().map(|tubes| match document.tubes.get(&tubes.name) {
+        Some(known) => tubes_solution(&tubes.name, known),
+        None => Ok(TubesSolution::default()),
+    });
+    solution.tubes = tubes.collect::<Result<_, _>>()?;
     for (name, value) in document.unknowns.iter().flat_map(|unknowns| &unknowns.0) {
         if let Some(position) = model.parameters.iter().position(|parameter| parameter.name == *name) {
             solution.found.push((position, *value));
@@ -194,6 +200,38 @@ fn beam_solution(name: &str, beam: &BeamDocument) -> Result<BeamSolution, ReadEr
     };
     let samples = (0..count).map(sample).collect::<Result<_, _>>()?;
     Ok(BeamSolution { samples, length: beam.s[count - 1] })
+}
+
+fn tubes_solution(name: &str, tubes: &TubesDocument) -> Result<TubesSolution, ReadError> {
+    let broken = |message: String| ReadError::Broken(format!("tubes.{name}: {message}"));
+    let count = tubes.s.len();
+    let lengths = [
+        ("position", tubes.position.len()),
+        ("rotation", tubes.rotation.len()),
+        ("force", tubes.force.len()),
+        ("moment", tubes.moment.len()),
+        ("curvature", tubes.curvature.len()),
+    ];
+    if let Some((field, length)) = lengths.into_iter().find(|(_, length)| *length != count) {
+        return Err(broken(format!("`s` has {count} entries, but `{field}` has {length}")));
+    }
+    // The tubes that reach a sample, each with its value there.
+    let there = |lists: &[Vec<f64>], i: usize| -> Vec<(usize, f64)> {
+        let values = lists.iter().enumerate();
+        values.filter_map(|(tube, list)| list.get(i).map(|value| (tube, *value))).collect()
+    };
+    let sample = |i: usize| -> Result<TubesSample, ReadError> {
+        let rotation = rotation(&format!("tubes.{name}.rotation[{i}]"), tubes.rotation[i])?;
+        Ok(TubesSample {
+            s: tubes.s[i],
+            pose: Pose::new(rotation, tubes.position[i].into()),
+            wrench: Wrench::new(tubes.force[i].into(), tubes.moment[i].into()),
+            curvature: tubes.curvature[i].into(),
+            angles: there(&tubes.angles, i),
+            torques: there(&tubes.torques, i),
+        })
+    };
+    Ok(TubesSolution { samples: (0..count).map(sample).collect::<Result<_, _>>()? })
 }
 
 fn joint_solution(name: &str, joint: &JointDocument, kind: JointKind) -> Result<JointSolution, ReadError> {

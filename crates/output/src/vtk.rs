@@ -1,29 +1,46 @@
 //! `model.vtp`: VTK XML PolyData for ParaView and PyVista.
 //!
-//! One polyline a beam through the deformed samples, and one a cable along its course. Numbers are written as inline base64 (a 32-bit byte
-//! count, then the little-endian values), which is exact and can hold NaN where a beam has no stress.
+//! One polyline a beam through the deformed samples, one a set of concentric tubes along their axis, and one a cable
+//! along its course. Numbers are written as inline base64 (a 32-bit byte count, then the little-endian values), which
+//! is exact and can hold NaN where a beam has no stress.
 
 use flexura_model::Model;
 use flexura_post::Evaluation;
 use flexura_solution::{BeamSample, Solution};
-use flexura_spatial::Vector3;
+use flexura_spatial::{Pose, Vector3, Wrench};
 
-/// The deformed beams with their fields, and behind them the cables.
+/// The deformed beams with their fields, behind them the concentric tubes, and behind those the cables.
 ///
 /// Point data: `s`, `displacement`, `force`, `moment`, `curvature`, `stretch`, `director_e1`,
-/// `director_e2`, `director_e3`, `strain`, `stress` (the last two NaN for a section given as a stiffness, all of them on
-/// cables). Cell data: `beam` and `cable`, the position in the model's list or -1, and `tension`, NaN for a beam.
-/// Field data: `beam_names`, and `cable_names` where there are cables.
+/// `director_e2`, `director_e3`, `strain`, `stress` (the last two NaN for a section given as a stiffness; on tubes these
+/// two, `displacement` and `stretch`, and all of them on cables). Cell data: `beam`, `tubes` and `cable`, the position in
+/// the model's list or -1, and `tension`, NaN but for a cable. Field data: `beam_names`, and `tubes_names` and
+/// `cable_names` where there are such.
 pub fn model_vtp(model: &Model, solution: &Solution, evaluation: &Evaluation) -> String {
     let samples: Vec<&BeamSample> = solution.beams.iter().flat_map(|beam| &beam.samples).collect();
     let course: Vec<Vector3<f64>> = solution.cables.iter().flat_map(|cable| &cable.course).copied().collect();
     let beams = solution.beams.iter().map(|beam| beam.samples.len());
-    let lines: Vec<usize> = beams.chain(solution.cables.iter().map(|cable| cable.course.len())).collect();
+    let tubes = solution.tubes.iter().map(|tubes| tubes.samples.len());
+    let lines: Vec<usize> =
+        beams.chain(tubes).chain(solution.cables.iter().map(|cable| cable.course.len())).collect();
     let mut ends = Vec::with_capacity(lines.len());
     for count in &lines {
         ends.push(ends.last().copied().unwrap_or(0) + *count as i64);
     }
-    let points = samples.len() + course.len();
+    let of_beams = samples.iter().map(|sample| Section {
+        s: sample.s,
+        pose: sample.pose,
+        wrench: sample.wrench,
+        curvature: sample.curvature,
+    });
+    let of_tubes = solution.tubes.iter().flat_map(|tubes| &tubes.samples).map(|sample| Section {
+        s: sample.s,
+        pose: sample.pose,
+        wrench: sample.wrench,
+        curvature: sample.curvature,
+    });
+    let sections: Vec<Section> = of_beams.chain(of_tubes).collect();
+    let points = sections.len() + course.len();
     let stress: Vec<[f64; 2]> = solution
         .beams
         .iter()
@@ -36,18 +53,16 @@ pub fn model_vtp(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
         })
         .collect();
 
-    // A cable has no sections, so its points have no such values.
+    // Points of cables have no values of sections, those of tubes none that beams alone have.
     let padded = |name: &str, components: usize, mut values: Vec<f64>| {
         values.resize(components * points, f64::NAN);
         floats(name, components, &values)
     };
-    let vectors = |name: &str, pick: &dyn Fn(&BeamSample) -> Vector3<f64>| {
-        padded(name, 3, samples.iter().flat_map(|sample| <[f64; 3]>::from(pick(sample))).collect())
+    let vectors = |name: &str, pick: &dyn Fn(&Section) -> Vector3<f64>| {
+        padded(name, 3, sections.iter().flat_map(|section| <[f64; 3]>::from(pick(section))).collect())
     };
-    let scalars = |name: &str, pick: &dyn Fn(&BeamSample) -> f64| {
-        padded(name, 1, samples.iter().map(|sample| pick(sample)).collect())
-    };
-    let director = |axis: Vector3<f64>| move |sample: &BeamSample| sample.pose.rotation * axis;
+    let director = |axis: Vector3<f64>| move |section: &Section| section.pose.rotation * axis;
+    let displacements = samples.iter().map(|sample| sample.pose.position - sample.rest_pose.position);
 
     let mut text = String::from(concat!(
         "<?xml version=\"1.0\"?>\n",
@@ -55,6 +70,9 @@ pub fn model_vtp(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
         "<PolyData>\n<FieldData>\n",
     ));
     text += &names("beam_names", model.beams.iter().map(|beam| beam.name.as_str()));
+    if !model.tubes.is_empty() {
+        text += &names("tubes_names", model.tubes.iter().map(|tubes| tubes.name.as_str()));
+    }
     if !model.cables.is_empty() {
         text += &names("cable_names", model.cables.iter().map(|cable| cable.name.as_str()));
     }
@@ -63,32 +81,45 @@ pub fn model_vtp(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
         lines.len()
     );
     text += "<PointData>\n";
-    text += &scalars("s", &|sample| sample.s);
-    text += &vectors("displacement", &|sample| sample.pose.position - sample.rest_pose.position);
-    text += &vectors("force", &|sample| sample.wrench.force);
-    text += &vectors("moment", &|sample| sample.wrench.moment);
-    text += &vectors("curvature", &|sample| sample.curvature);
-    text += &scalars("stretch", &|sample| sample.strain.x);
+    text += &padded("s", 1, sections.iter().map(|section| section.s).collect());
+    text += &padded("displacement", 3, displacements.flat_map(<[f64; 3]>::from).collect());
+    text += &vectors("force", &|section| section.wrench.force);
+    text += &vectors("moment", &|section| section.wrench.moment);
+    text += &vectors("curvature", &|section| section.curvature);
+    text += &padded("stretch", 1, samples.iter().map(|sample| sample.strain.x).collect());
     text += &vectors("director_e1", &director(Vector3::x()));
     text += &vectors("director_e2", &director(Vector3::y()));
     text += &vectors("director_e3", &director(Vector3::z()));
     text += &padded("strain", 1, stress.iter().map(|pair| pair[0]).collect());
     text += &padded("stress", 1, stress.iter().map(|pair| pair[1]).collect());
     text += "</PointData>\n<CellData>\n";
-    let (beams, cables) = (solution.beams.len(), solution.cables.len());
+    let (beams, tubes, cables) = (solution.beams.len(), solution.tubes.len(), solution.cables.len());
     let none = |count: usize| std::iter::repeat_n(-1, count);
-    text += &integers("beam", (0..beams as i64).chain(none(cables)));
-    text += &integers("cable", none(beams).chain(0..cables as i64));
+    text += &integers("beam", (0..beams as i64).chain(none(tubes + cables)));
+    text += &integers("tubes", none(beams).chain(0..tubes as i64).chain(none(cables)));
+    text += &integers("cable", none(beams + tubes).chain(0..cables as i64));
     let tensions = solution.cables.iter().map(|cable| cable.tension);
-    text += &floats("tension", 1, &std::iter::repeat_n(f64::NAN, beams).chain(tensions).collect::<Vec<_>>());
+    text += &floats(
+        "tension",
+        1,
+        &std::iter::repeat_n(f64::NAN, beams + tubes).chain(tensions).collect::<Vec<_>>(),
+    );
     text += "</CellData>\n<Points>\n";
-    let places = samples.iter().map(|sample| sample.pose.position).chain(course);
+    let places = sections.iter().map(|section| section.pose.position).chain(course);
     text += &floats("Points", 3, &places.flat_map(<[f64; 3]>::from).collect::<Vec<_>>());
     text += "</Points>\n<Lines>\n";
     text += &integers("connectivity", 0..points as i64);
     text += &integers("offsets", ends.into_iter());
     text += "</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
     text
+}
+
+/// What beams and tubes have at a sample.
+struct Section {
+    s: f64,
+    pose: Pose,
+    wrench: Wrench,
+    curvature: Vector3<f64>,
 }
 
 fn floats(name: &str, components: usize, values: &[f64]) -> String {

@@ -56,6 +56,9 @@ pub struct Document {
     /// The cables' states.
     #[serde(default)]
     pub cables: Named<CableDocument>,
+    /// The states of concentric tubes at their samples.
+    #[serde(default)]
+    pub tubes: Named<TubesDocument>,
     /// Small motion of the origin (rows) per small dead load there (columns), global axes, SI; where it was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compliance: Option<Named<[[f64; 6]; 6]>>,
@@ -201,6 +204,28 @@ pub struct CableDocument {
     pub tension: f64,
     /// Its course, global, m.
     pub course: Vec<[f64; 3]>,
+}
+
+/// The state of concentric tubes along their common axis. Every list has one entry for each sample, but those of
+/// `angles` and `torques` hold one list for each tube, which ends where that tube does.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct TubesDocument {
+    /// Arc length from where the tubes leave the guide, m.
+    pub s: Vec<f64>,
+    /// Global position of the axis, m.
+    pub position: Vec<[f64; 3]>,
+    /// Rotation of the first tube's section, (w, x, y, z).
+    pub rotation: Vec<[f64; 4]>,
+    /// Force of the part beyond s on the part before it, all tubes together, global, N.
+    pub force: Vec<[f64; 3]>,
+    /// Moment of the part beyond s on the part before it, all tubes together, global, N·m.
+    pub moment: Vec<[f64; 3]>,
+    /// k1, k2, k3 of the first tube, 1/m.
+    pub curvature: Vec<[f64; 3]>,
+    /// Turn of each tube relative to the first, rad.
+    pub angles: Vec<Vec<f64>>,
+    /// Torque about the axis that each tube carries, N·m.
+    pub torques: Vec<Vec<f64>>,
 }
 
 /// One of several equilibria.

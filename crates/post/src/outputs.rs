@@ -110,6 +110,14 @@ impl Reader<'_> {
                 });
                 value.ok_or_else(|| self.no_such_quantity("a cable"))
             }
+            ProbeTarget::Tubes(tubes) => {
+                let tip = self.solution.tubes.get(tubes.0).and_then(|tubes| tubes.samples.last());
+                let value = tip.and_then(|tip| match probe.quantity {
+                    Quantity::Tangent => (tip.pose.rotation * Vector3::x()).get(component).copied(),
+                    quantity => pose_component(&tip.pose, quantity, component),
+                });
+                value.ok_or_else(|| self.no_such_quantity("the tip of concentric tubes"))
+            }
             ProbeTarget::Model => match probe.quantity {
                 Quantity::Energy => Ok(self.solution.energy),
                 _ => Err(self.no_such_quantity("the whole mechanism")),

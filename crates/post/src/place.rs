@@ -18,6 +18,7 @@ pub fn place_name(model: &Model, target: &ProbeTarget) -> String {
         ProbeTarget::Joint(id) => format!("joint.{}", word(&model[id].name)),
         ProbeTarget::Spring(id) => format!("spring.{}", word(&model[id].name)),
         ProbeTarget::Cable(id) => format!("cable.{}", word(&model[id].name)),
+        ProbeTarget::Tubes(id) => format!("tubes.{}", word(&model[id].name)),
         ProbeTarget::Model => "model".to_owned(),
     }
 }

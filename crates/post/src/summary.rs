@@ -1,8 +1,8 @@
 //! What a person reads after a solve, as plain data; how it is set on the screen is the command's matter.
 
 use crate::{BeamPeaks, Evaluation, OutputResult};
-use flexura_model::{CoordinateKind, Model};
-use flexura_solution::{Solution, Status};
+use flexura_model::{CoordinateKind, Model, Tubes};
+use flexura_solution::{Solution, Status, TubesSolution};
 use flexura_spatial::{Vector3, log};
 
 /// The summary of one solve.
@@ -40,6 +40,8 @@ pub struct Summary {
     pub couplings: Vec<(String, f64)>,
     /// Cables: name, length (m), tension (N).
     pub cables: Vec<(String, f64, f64)>,
+    /// Concentric tubes in the model's order.
+    pub tubes: Vec<TubesSummary>,
     /// Strain energy, J.
     pub energy: f64,
     /// Things to know though the solve went well.
@@ -51,11 +53,11 @@ pub struct Summary {
 /// The largest length (m), force (N) and moment (N·m) of a result.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Scales {
-    /// Longest beam or remotest body.
+    /// Longest beam or set of tubes, or remotest body.
     pub length: f64,
     /// Largest internal or joint force.
     pub force: f64,
-    /// Largest internal or joint moment.
+    /// Largest internal or joint moment, or torque of a tube.
     pub moment: f64,
 }
 
@@ -132,6 +134,19 @@ pub struct CoordinateSummary {
     pub effort: f64,
     /// "N" or "N*m".
     pub effort_unit: &'static str,
+}
+
+/// Concentric tubes, as far as they have come out of their guide.
+#[derive(Clone, Debug)]
+pub struct TubesSummary {
+    /// Their name.
+    pub name: String,
+    /// Length from the guide to the tip, m.
+    pub length: f64,
+    /// Global position of the tip, m.
+    pub tip: Vector3<f64>,
+    /// Torque about the axis at the guide, one for each tube, N·m; zero for one that ends inside the guide.
+    pub torques: Vec<f64>,
 }
 
 /// Gathers the summary of a solve.
@@ -212,21 +227,37 @@ pub fn summarise(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
             .zip(&solution.cables)
             .map(|(cable, result)| (cable.name.clone(), result.length, result.tension))
             .collect(),
+        tubes: model.tubes.iter().zip(&solution.tubes).filter_map(tubes_summary).collect(),
         energy: solution.energy,
         warnings: solution.warnings.clone(),
         scales: scales(solution),
     }
 }
 
+fn tubes_summary((tubes, result): (&Tubes, &TubesSolution)) -> Option<TubesSummary> {
+    let (base, tip) = (result.samples.first()?, result.samples.last()?);
+    let torque = |tube: usize| base.torques.iter().find(|(number, _)| *number == tube).map_or(0.0, |t| t.1);
+    Some(TubesSummary {
+        name: tubes.name.clone(),
+        length: tip.s,
+        tip: tip.pose.position,
+        torques: (0..tubes.tubes.len()).map(torque).collect(),
+    })
+}
+
 fn scales(solution: &Solution) -> Scales {
     let samples = solution.beams.iter().flat_map(|beam| &beam.samples).map(|sample| sample.wrench);
+    let tubes = || solution.tubes.iter().flat_map(|tubes| &tubes.samples);
+    let samples = samples.chain(tubes().map(|sample| sample.wrench));
     let wrenches = samples.chain(solution.joints.iter().map(|joint| joint.wrench));
     let mut scales = Scales::default();
     for wrench in wrenches {
         scales.force = scales.force.max(wrench.force.norm());
         scales.moment = scales.moment.max(wrench.moment.norm());
     }
-    let lengths = solution.beams.iter().map(|beam| beam.length);
+    let torques = tubes().flat_map(|sample| &sample.torques).map(|(_, torque)| torque.abs());
+    scales.moment = torques.fold(scales.moment, f64::max);
+    let lengths = solution.beams.iter().map(|beam| beam.length).chain(tubes().map(|sample| sample.s));
     scales.length =
         lengths.chain(solution.bodies.iter().map(|pose| pose.position.norm())).fold(0.0, f64::max);
     scales

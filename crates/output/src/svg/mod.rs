@@ -101,7 +101,7 @@ fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
             canvas.line(panel.point(&body.initial), panel.point(&arm.initial), &initial);
         }
     }
-    for beam in &scene.beams {
+    for beam in scene.beams.iter().filter(|beam| !beam.initial.is_empty()) {
         canvas.curve(&pieces(panel, &beam.initial), &initial);
     }
     for spring in &scene.springs {
@@ -114,8 +114,12 @@ fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
         }
     }
     for (i, beam) in scene.beams.iter().enumerate() {
-        let style = Style::line(COLOURS[i % COLOURS.len()], 2.4);
-        canvas.curve(&pieces(panel, &beam.deformed), &style);
+        let colour = COLOURS[i % COLOURS.len()];
+        canvas.curve(&pieces(panel, &beam.deformed), &Style::line(colour, 2.4));
+        for (around, knots) in beam.sleeves.iter().enumerate().filter(|(_, knots)| **knots > 1) {
+            let style = Style::line(colour, 2.4 + 1.8 * (1.0 + around as f64));
+            canvas.curve(&pieces(panel, &beam.deformed[..*knots]), &style);
+        }
     }
     for cable in &scene.cables {
         marks::cable(canvas, panel, cable);

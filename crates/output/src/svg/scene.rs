@@ -1,14 +1,18 @@
 //! What there is to draw, in space.
 
-use flexura_model::{BeamPoint, Body, Frame, Guide, JointKind, LoadFrame, LoadTarget, Model, Mount};
-use flexura_solution::{BeamSample, Solution};
+use flexura_model::{
+    BeamPoint, Body, Frame, Guide, JointKind, LoadFrame, LoadTarget, Model, Mount, Tube, Tubes,
+};
+use flexura_solution::{BeamSample, Solution, TubesSolution};
 use flexura_spatial::{Pose, Vector3};
 
-/// A beam's axis before and after.
+/// A beam's axis before and after, or that of concentric tubes, of which nothing is known before.
 pub struct BeamLine {
     pub name: String,
     pub initial: Vec<Knot>,
     pub deformed: Vec<Knot>,
+    /// For each further tube that surrounds the first one's beginning: over how many knots, the longest first.
+    pub sleeves: Vec<usize>,
 }
 
 /// A point of a beam's axis with its derivative by the arc length, for a smooth curve through few samples.
@@ -95,7 +99,9 @@ impl Scene {
             name: beam.name.clone(),
             initial: result.samples.iter().map(Knot::initial).collect(),
             deformed: result.samples.iter().map(Knot::deformed).collect(),
+            sleeves: Vec::new(),
         });
+        let tubes = model.tubes.iter().zip(&solution.tubes).map(tubes_line);
         let mut bodies: Vec<BodyMark> = model
             .bodies
             .iter()
@@ -107,12 +113,16 @@ impl Scene {
                 arms: Vec::new(),
             })
             .collect();
-        let supports = add_beam_ends(model, solution, &mut bodies);
+        let mut supports = add_beam_ends(model, solution, &mut bodies);
+        supports.extend(model.tubes.iter().filter_map(guide_support));
         let joints = add_joints(model, solution, &mut bodies);
         for spring in &model.springs {
             for end in [&spring.from, &spring.to] {
                 add_arm(model, solution, &mut bodies, end.mount, &Pose::translation(end.point));
             }
+        }
+        for tubes in &model.tubes {
+            add_arm(model, solution, &mut bodies, tubes.base.mount, &tubes.base.pose);
         }
         for guide in model.cables.iter().flat_map(|cable| &cable.route) {
             if let Guide::Point(place) = guide {
@@ -120,7 +130,7 @@ impl Scene {
             }
         }
         Self {
-            beams: beams.collect(),
+            beams: beams.chain(tubes).collect(),
             bodies,
             supports,
             joints,
@@ -219,6 +229,31 @@ fn add_arm(model: &Model, solution: &Solution, bodies: &mut [BodyMark], body: Mo
     }
 }
 
+fn tubes_line((tubes, result): (&Tubes, &TubesSolution)) -> BeamLine {
+    let deformed = result.samples.iter().map(|sample| Knot {
+        s: sample.s,
+        point: sample.pose.position,
+        derivative: sample.pose.rotation * Vector3::x(),
+    });
+    let deformed: Vec<Knot> = deformed.collect();
+    let length = deformed.last().map_or(0.0, |knot| knot.s);
+    let covered = |tube: &Tube| deformed.partition_point(|knot| knot.s <= tube.reach() + 1e-9 * length);
+    let mut sleeves: Vec<usize> = tubes.tubes.iter().skip(1).map(covered).collect();
+    sleeves.sort_unstable_by(|a, b| b.cmp(a));
+    BeamLine { name: tubes.name.clone(), initial: Vec::new(), deformed, sleeves }
+}
+
+/// The guide's mouth on the ground.
+fn guide_support(tubes: &Tubes) -> Option<Support> {
+    let axis = tubes.base.pose.rotation * Vector3::x();
+    (tubes.base.mount == Mount::Ground).then_some(Support {
+        point: tubes.base.pose.position,
+        outward: -axis,
+        axis,
+        kind: JointKind::Weld,
+    })
+}
+
 fn initial_pose(model: &Model, solution: &Solution, mount: Mount) -> Pose {
     match mount {
         Mount::Ground => Pose::identity(),
@@ -270,6 +305,14 @@ fn loads(model: &Model, solution: &Solution) -> Vec<LoadMark> {
             force: turned(unit(load.force)),
             moment: turned(unit(load.moment)),
         });
+    }
+    for (tubes, result) in model.tubes.iter().zip(&solution.tubes) {
+        let (force, moment) = (unit(tubes.force), unit(tubes.moment));
+        if let Some(tip) = result.samples.last()
+            && (force != Vector3::zeros() || moment != Vector3::zeros())
+        {
+            marks.push(LoadMark { point: tip.pose.position, force, moment });
+        }
     }
     marks
 }
