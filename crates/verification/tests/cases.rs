@@ -81,6 +81,8 @@ conforms!(
     tendon_arc,
     tendon_helix,
     tendon_robot,
+    two_tubes,
+    one_tube,
 );
 
 #[test]

@@ -19,6 +19,7 @@ mod spring;
 mod strip;
 mod taper;
 mod tendons;
+mod tubes;
 
 use crate::Case;
 
@@ -44,6 +45,7 @@ pub fn cases() -> Vec<Case> {
         &flexures::CASES,
         &joints::CASES,
         &tendons::CASES,
+        &tubes::CASES,
     ]
     .concat()
 }
