@@ -353,6 +353,7 @@ fn the_schema_is_json_and_knows_every_table() {
         "coupling",
         "spring",
         "cable",
+        "tubes",
         "mass",
         "load",
         "output",
@@ -374,6 +375,8 @@ fn the_schema_is_json_and_knows_every_table() {
         "`beam.NAME.curve`",
         "## Repeating",
         "`compliance.ROW.COLUMN`",
+        "`tubes.NAME.tube`",
+        "| `tubes.NAME` |",
     ] {
         assert!(page.contains(word) || word == "`[", "{word}");
     }

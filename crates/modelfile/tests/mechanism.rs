@@ -377,3 +377,79 @@ diameter = { notch = "corner_filleted", thickness = "radius/10", radius = "1 mm"
     close(notch.thickness, 0.002);
     close(notch.rim(), 0.004);
 }
+
+const ROBOT: &str = r#"
+[section.inner]
+shape = "tube"
+outer_diameter = "1.6 mm"
+inner_diameter = "1.2 mm"
+[section.outer]
+shape = "stiffness"
+EA = "inf"
+GJ = 0.02
+EI2 = 0.03
+EI3 = 0.03
+[tubes.robot]
+base = { body = "nut", at = [0, 0, "50 mm"], rotation = { axis = [0, 1, 0], angle = "-90 deg" } }
+force = [0, 0, "-0.2 N"]
+tube = [
+  { material = "steel", section = "inner", straight = "200 mm", curved = "60 mm", radius = "4*radius", rotation = "30 deg", translation = "-20 mm" },
+  { section = "outer", straight = "100 mm" },
+]
+[tubes.bare]
+base = "ground"
+moment = ["2 N*mm", 0, 0]
+[[tubes.bare.tube]]
+section = "outer"
+curved = "100 mm"
+curvature = "-12 1/m"
+[output]
+height = "tubes.robot.position.z - 50 mm"
+turn = "tubes.bare.rotation"
+tangent = "tubes.robot.tangent.x"
+"#;
+
+#[test]
+fn tubes_arrive_with_their_base_and_rest_curvature() {
+    let model = model(ROBOT);
+    let [robot, bare] = &model.tubes[..] else { panic!() };
+    assert!(matches!(robot.base.mount, Mount::Body(id) if id.0 == 0));
+    close(robot.base.pose.position.z, 0.05);
+    let axis = robot.base.pose.rotation * nalgebra::Vector3::x();
+    close(axis.z, 1.0);
+    close(robot.force.z, -0.2);
+    assert_eq!(robot.moment.norm(), 0.0);
+    let [inner, outer] = &robot.tubes[..] else { panic!() };
+    assert_eq!((inner.section.0, inner.material.map(|id| id.0)), (1, Some(0)));
+    close(inner.curvature, 12.5);
+    close(inner.rotation, 30f64.to_radians());
+    close(inner.reach(), 0.24);
+    assert_eq!((outer.material, outer.curved, outer.curvature, outer.translation), (None, 0.0, 0.0, 0.0));
+    assert_eq!(bare.base.mount, Mount::Ground);
+    close(bare.moment.x, 0.002);
+    assert_eq!((bare.tubes.len(), bare.tubes[0].curvature, bare.tubes[0].straight), (1, -12.0, 0.0));
+
+    let [height, turn, tangent] = &model.outputs[..] else { panic!() };
+    assert!(matches!(height.probes[0].target, ProbeTarget::Tubes(id) if id.0 == 0));
+    assert_eq!((height.probes[0].quantity, height.probes[0].component), (Quantity::Position, 2));
+    assert_eq!((turn.unit.as_str(), turn.formulas.len()), ("rad", 3));
+    assert!(matches!(turn.probes[0].target, ProbeTarget::Tubes(id) if id.0 == 1));
+    assert_eq!((tangent.unit.as_str(), tangent.probes[0].quantity), ("", Quantity::Tangent));
+}
+
+#[test]
+fn tubes_that_make_no_sense_are_refused() {
+    let refused = |old: &str, new: &str, message: &str| {
+        assert!(ROBOT.contains(old), "{old}");
+        let error = read(&ROBOT.replacen(old, new, 1), &[]).unwrap_err();
+        assert!(error.contains(message), "{error}");
+    };
+    refused("radius = \"4*radius\"", "radius = 0", "must be positive, is 0");
+    refused("curved = \"100 mm\"", "straight = \"100 mm\"", "but there is no `curved`");
+    refused("body = \"nut\", at = [0, 0, \"50 mm\"]", "beam = \"left\", at = 1", "not on a beam");
+    refused("body = \"nut\", ", "", "the key `body` is missing");
+    refused("base = \"ground\"", "base = 3", "expected the name of a body, or a table");
+    refused("base = \"ground\"\n", "", "the key `base` is missing");
+    refused("tubes.robot.position", "tubes.robut.position", "there is no set of tubes `robut`");
+    refused("tubes.robot.position", "tubes.robot.tension", "there is no quantity `tension` here");
+}

@@ -245,3 +245,91 @@ fn notches_must_fit_their_beam() {
         ["section.wire.height.semi_axis_across"]
     );
 }
+
+#[test]
+fn tubes_nest_and_the_innermost_reaches_farthest() {
+    let tube = |section, straight: f64, curved: f64| Tube {
+        material: Some(MaterialId(0)),
+        section: SectionId(section),
+        straight,
+        curved,
+        curvature: 12.5,
+        rotation: 0.5,
+        translation: -0.02,
+    };
+    let section = |name: &str, shape| Section { name: name.into(), shape, plane_strain: false };
+    let pipe =
+        |outer: f64, inner: f64| Shape::Tube { outer_diameter: outer.into(), inner_diameter: inner.into() };
+    let direct = |ei2: f64, ei3: f64| Shape::Stiffness {
+        ea: f64::INFINITY.into(),
+        gj: 0.01.into(),
+        ei2: ei2.into(),
+        ei3: ei3.into(),
+        ga2: None,
+        ga3: None,
+        mass_per_length: None,
+    };
+    let with = |change: &dyn Fn(&mut Tubes, &mut Vec<Section>)| {
+        paths(|m| {
+            let sections = [pipe(2e-3, 1.2e-3), pipe(3e-3, 2.2e-3), direct(0.02, 0.02)];
+            m.sections.extend(["middle", "outer", "direct"].iter().zip(sections).map(|(n, s)| section(n, s)));
+            let mut tubes = Tubes {
+                name: "robot".into(),
+                base: Frame { mount: Mount::Ground, pose: Pose::identity() },
+                tubes: vec![tube(0, 0.2, 0.06), tube(1, 0.15, 0.05), tube(2, 0.1, 0.0)],
+                force: Vector3::zeros(),
+                moment: Vector3::zeros(),
+            };
+            change(&mut tubes, &mut m.sections);
+            m.tubes = vec![tubes];
+        })
+    };
+    let tubes = |change: &dyn Fn(&mut Vec<Tube>)| with(&|t, _| change(&mut t.tubes));
+    assert_eq!(tubes(&|_| {}), [""; 0]);
+    assert_eq!(tubes(&|t| t.truncate(1)), [""; 0]);
+    assert_eq!(tubes(&|t| t.clear()), ["tubes.robot.tube"]);
+    let five = |t: &mut Vec<Tube>| *t = vec![Tube { material: None, ..tube(3, 0.1, 0.0) }; 5];
+    assert_eq!(tubes(&five), ["tubes.robot.tube"]);
+    assert_eq!(with(&|t, _| t.base.mount = Mount::Body(BodyId(0))), ["tubes.robot.base.body"]);
+    let section = Mount::Beam(BeamPoint { beam: BeamId(0), at: At::Fraction(1.0) });
+    assert_eq!(with(&|t, _| t.base.mount = section), ["tubes.robot.base.beam"]);
+    assert_eq!(with(&|t, _| t.base.pose.position.x = f64::NAN), ["tubes.robot.base.at"]);
+    assert_eq!(with(&|t, _| t.force.y = f64::INFINITY), ["tubes.robot.force"]);
+    assert_eq!(with(&|t, _| t.moment.y = f64::NAN), ["tubes.robot.moment"]);
+
+    assert_eq!(tubes(&|t| t[1].straight = -0.1), ["tubes.robot.tube[1].straight"]);
+    assert_eq!(tubes(&|t| t[0].curved = f64::NAN), ["tubes.robot.tube[0].curved"]);
+    assert_eq!(tubes(&|t| t[0].curvature = f64::INFINITY), ["tubes.robot.tube[0].curvature"]);
+    assert_eq!(tubes(&|t| t[2].rotation = f64::NAN), ["tubes.robot.tube[2].rotation"]);
+    assert_eq!(tubes(&|t| t[2].translation = 0.001), ["tubes.robot.tube[2].translation"]);
+    assert_eq!(tubes(&|t| t[2].translation = 0.0), [""; 0]);
+    assert_eq!(tubes(&|t| t[2].translation = -0.1), ["tubes.robot.tube[2]"]);
+    assert_eq!(tubes(&|t| t[0].translation = -0.17), ["tubes.robot.tube[1]"]);
+    // Within the guide a curved part may begin, and tubes may end together.
+    assert_eq!(tubes(&|t| t[0].translation = -0.08), [""; 0]);
+    assert_eq!(tubes(&|t| t[1].straight = -0.02 - t[1].curved - t[1].translation + 0.26), [""; 0]);
+
+    assert_eq!(tubes(&|t| t[1].section = SectionId(9)), ["tubes.robot.tube[1].section"]);
+    assert_eq!(tubes(&|t| t[1].material = Some(MaterialId(9))), ["tubes.robot.tube[1].material"]);
+    assert_eq!(tubes(&|t| t[1].material = None), ["tubes.robot.tube[1]"]);
+    let direct_between = |t: &mut Vec<Tube>| (t[1].section, t[1].material) = (SectionId(3), None);
+    assert_eq!(tubes(&direct_between), [""; 0]);
+    // What is known on both sides of it must still fit.
+    let too_wide = |t: &mut Vec<Tube>, s: &mut Vec<Section>| {
+        direct_between(t);
+        s[0].shape = Shape::Circle { diameter: 2.5e-3.into() };
+    };
+    let last = ["tubes.robot.tube[2].section"];
+    assert_eq!(with(&|t, s| too_wide(&mut t.tubes, s)), last);
+    assert_eq!(tubes(&|t| t[2].section = SectionId(0)), last);
+    assert_eq!(with(&|_, s| s[2].shape = pipe(3e-3, 1.9e-3)), last);
+    assert_eq!(with(&|_, s| s[2].shape = pipe(3e-3, 2e-3)), [""; 0]);
+    let rectangle = Shape::Rectangle { width: 1e-3.into(), height: 1e-3.into() };
+    assert_eq!(with(&|_, s| s[2].shape = rectangle.clone()), last);
+    assert_eq!(with(&|_, s| s[2].shape = direct(0.02, 0.03)), last);
+    assert_eq!(with(&|_, s| s[2].shape = direct(f64::INFINITY, f64::INFINITY)), last);
+    assert_eq!(with(&|_, s| s[2].plane_strain = true), last);
+    let taper = Profile::Function(Function::parse("3e-3 - 1e-6*s", "s").unwrap());
+    let tapered = Shape::Tube { outer_diameter: taper, inner_diameter: 2.2e-3.into() };
+    assert_eq!(with(&|_, s| s[2].shape = tapered.clone()), last);
+}

@@ -166,13 +166,13 @@ fn check_lengths(tube: &Tube, i: usize, path: &str, issues: &mut Issues) {
             "it must be in the guide: zero or negative",
         );
     } else if sound(tube) && tube.reach() <= 0.0 {
-        let length = tube.straight + tube.curved;
+        let length = short(tube.straight + tube.curved);
         issues.add_with_hint(
             path,
             format!(
                 "tube {} does not leave the guide: it is {length} m long, its back end {} m behind the mouth",
                 i + 1,
-                -tube.translation
+                short(-tube.translation)
             ),
             "straight + curved + translation must be positive",
         );
@@ -193,12 +193,18 @@ fn check_reaches(tubes: &Tubes, path: &str, issues: &mut Issues) {
             issues.add_with_hint(
                 format!("{path}[{i}]"),
                 format!(
-                    "tube {} reaches {} m from the guide's mouth, farther than the innermost, which reaches {reach} m",
+                    "tube {} reaches {} m from the guide's mouth, farther than the innermost, which reaches {} m",
                     i + 1,
-                    tube.reach()
+                    short(tube.reach()),
+                    short(reach)
                 ),
                 "make the first tube longer, or draw this one back by `translation`",
             );
         }
     }
+}
+
+/// A length to the nanometre, for a message.
+fn short(length: f64) -> f64 {
+    (length * 1e9).round() / 1e9
 }
