@@ -173,8 +173,10 @@ fn lists_of_a_tube_end_where_it_does() {
     assert_eq!(tubes["force"][2], json!([0.0, 0.0, -0.1]));
     assert_eq!(tubes["curvature"][3], json!([0.0, 0.0, 5.0]));
     assert_eq!(tubes["angles"][0], json!(vec![0.0; 9]));
-    assert_eq!(tubes["angles"][1], json!([0.5, 0.48, 0.46, 0.44, 0.42]));
-    assert_eq!(tubes["torques"][1], json!([0.01, 0.0075, 0.005, 0.0025, 0.0]));
+    let angles: Vec<f64> = samples[..5].iter().map(|sample| sample.angles[1].1).collect();
+    assert_eq!(tubes["angles"][1], json!(angles));
+    let torques: Vec<f64> = samples[..5].iter().map(|sample| sample.torques[1].1).collect();
+    assert_eq!(tubes["torques"][1], json!(torques));
     assert_eq!(tubes["torques"][0].as_array().unwrap().len(), 9);
 }
 
@@ -231,9 +233,13 @@ fn a_document_is_read_back_into_the_solution_that_it_was_made_of() {
     assert!((back.springs[0].ends[1] - solution.springs[0].ends[1]).norm() < 1e-15);
     assert_eq!(back.tubes[0].samples.len(), 9);
     for (a, b) in back.tubes[0].samples.iter().zip(&solution.tubes[0].samples) {
-        assert_eq!((a.s, &a.angles, &a.torques), (b.s, &b.angles, &b.torques));
-        assert_eq!((a.pose.position, a.curvature), (b.pose.position, b.curvature));
-        assert_eq!((a.wrench.force, a.wrench.moment), (b.wrench.force, b.wrench.moment));
+        assert!((a.s - b.s).abs() < 1e-15 && (a.pose.position - b.pose.position).norm() < 1e-15);
+        assert!((a.wrench.moment - b.wrench.moment).norm() < 1e-15 && a.wrench.force == b.wrench.force);
+        assert_eq!(a.curvature, b.curvature);
+        for (a, b) in [(&a.angles, &b.angles), (&a.torques, &b.torques)] {
+            assert_eq!(a.len(), b.len());
+            assert!(a.iter().zip(b).all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() < 1e-15));
+        }
         assert!(a.pose.rotation.angle_to(&b.pose.rotation) < 1e-14);
     }
     let (again, _) = written(&model, &solution);
