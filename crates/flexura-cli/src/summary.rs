@@ -237,10 +237,11 @@ fn tubes(summary: &Summary) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexura::model::{Cable, CableLaw, Coupling};
+    use flexura::model::{Cable, CableLaw, Coupling, Frame, Mount, SectionId, Tube, Tubes};
     use flexura::modelfile::Document;
     use flexura::post::{evaluate, summarise};
-    use flexura::solution::CableSolution;
+    use flexura::solution::{CableSolution, TubesSample, TubesSolution};
+    use flexura::spatial::{Pose, Vector3, Wrench};
 
     const ELASTICA: &str = include_str!("../../../models/elastica.toml");
 
@@ -252,17 +253,48 @@ mod tests {
             render(&summarise(model, solution, &evaluate(model, solution).unwrap()))
         };
         let plain = text(&model, &solution);
-        assert!(!plain.contains("found") && !plain.contains("cables") && !plain.contains("couplings"));
+        assert!(
+            !plain.contains("found")
+                && !plain.contains("cables")
+                && !plain.contains("couplings")
+                && !plain.contains("tubes")
+        );
 
         solution.found = vec![(0, 3.2)];
         model.cables.push(Cable { name: "tendon".into(), route: Vec::new(), law: CableLaw::Tension(3.0) });
         solution.cables.push(CableSolution { course: Vec::new(), length: 0.25, tension: 3.0 });
         model.couplings.push(Coupling { name: "gear".into(), terms: Vec::new(), offset: 0.0 });
         solution.couplings.push(0.5);
+        let tube = Tube {
+            material: None,
+            section: SectionId(0),
+            straight: 0.0,
+            curved: 0.2,
+            curvature: 0.0,
+            rotation: 0.0,
+            translation: 0.0,
+        };
+        model.tubes.push(Tubes {
+            name: "robot".into(),
+            base: Frame { mount: Mount::Ground, pose: Pose::identity() },
+            tubes: vec![tube.clone(), tube],
+            force: Vector3::zeros(),
+            moment: Vector3::zeros(),
+        });
+        let sample = |s: f64| TubesSample {
+            s,
+            pose: Pose::translation(Vector3::new(s, 0.0, 0.0)),
+            wrench: Wrench::zero(),
+            curvature: Vector3::zeros(),
+            angles: vec![(0, 0.0), (1, 0.1)],
+            torques: vec![(0, -0.012), (1, 0.012)],
+        };
+        solution.tubes.push(TubesSolution { samples: vec![sample(0.0), sample(0.2)] });
         let full = text(&model, &solution);
         let found = full.find("force = 3.2 N").unwrap();
         assert!(full.contains("found:") && found < full.find("outputs").unwrap(), "{full}");
-        for words in ["tendon  250 mm  3 N", "gear", "effort per factor"] {
+        let robot = "robot  (200, 0, 0) mm  200 mm  -12 mN·m; 12 mN·m";
+        for words in ["tendon  250 mm  3 N", "gear", "effort per factor", "torque at the base", robot] {
             assert!(full.contains(words), "{words}: {full}");
         }
         solution.status = Status::Stalled;

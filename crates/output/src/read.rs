@@ -215,6 +215,9 @@ fn tubes_solution(name: &str, tubes: &TubesDocument) -> Result<TubesSolution, Re
     if let Some((field, length)) = lengths.into_iter().find(|(_, length)| *length != count) {
         return Err(broken(format!("`s` has {count} entries, but `{field}` has {length}")));
     }
+    if tubes.angles.iter().chain(&tubes.torques).any(|list| list.len() > count) {
+        return Err(broken("`angles` and `torques` go further than `s`".into()));
+    }
     // The tubes that reach a sample, each with its value there.
     let there = |lists: &[Vec<f64>], i: usize| -> Vec<(usize, f64)> {
         let values = lists.iter().enumerate();

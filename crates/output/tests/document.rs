@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{CURVATURE, HEIGHT, LENGTH, model, rich, solution};
+use common::{CURVATURE, HEIGHT, LENGTH, model, rich, robot, solution};
 use flexura_output::{OutputError, ReadError, document, read_document, solution_of, to_json};
 use flexura_post::{OutputResult, OutputValue, evaluate};
 use flexura_solution::Status;
@@ -44,6 +44,7 @@ fn a_converged_document_has_the_promised_keys_in_their_order() {
         "springs",
         "couplings",
         "cables",
+        "tubes",
         "energy",
         "stable",
         "unstable_directions",
@@ -53,6 +54,7 @@ fn a_converged_document_has_the_promised_keys_in_their_order() {
     assert_eq!(value["status"], "converged");
     assert_eq!(value["study"], "solve");
     assert_eq!(value["parameters"], json!({ "turn": 1.2 }));
+    assert_eq!(value["tubes"], json!({}));
     assert_eq!(value["stable"], Value::Null);
     let beam: Vec<&String> = value["beams"]["strip"].as_object().unwrap().keys().collect();
     let mut fields =
@@ -155,6 +157,39 @@ fn joints_of_several_coordinates_name_them() {
 }
 
 #[test]
+fn lists_of_a_tube_end_where_it_does() {
+    let (model, solution) = rich();
+    let (_, value) = written(&model, &solution);
+    let tubes = &value["tubes"]["robot"];
+    let fields: Vec<&String> = tubes.as_object().unwrap().keys().collect();
+    assert_eq!(fields, ["angles", "curvature", "force", "moment", "position", "rotation", "s", "torques"]);
+    for field in ["s", "position", "rotation", "force", "moment", "curvature"] {
+        assert_eq!(tubes[field].as_array().unwrap().len(), 9, "{field}");
+    }
+    let samples = &robot().1.samples;
+    let tip = samples[8].pose.position;
+    assert_eq!(tubes["position"][8], json!([tip.x, tip.y, tip.z]));
+    assert_eq!(tubes["rotation"][0], json!([1.0, 0.0, 0.0, 0.0]));
+    assert_eq!(tubes["force"][2], json!([0.0, 0.0, -0.1]));
+    assert_eq!(tubes["curvature"][3], json!([0.0, 0.0, 5.0]));
+    assert_eq!(tubes["angles"][0], json!(vec![0.0; 9]));
+    let angles: Vec<f64> = samples[..5].iter().map(|sample| sample.angles[1].1).collect();
+    assert_eq!(tubes["angles"][1], json!(angles));
+    let torques: Vec<f64> = samples[..5].iter().map(|sample| sample.torques[1].1).collect();
+    assert_eq!(tubes["torques"][1], json!(torques));
+    assert_eq!(tubes["torques"][0].as_array().unwrap().len(), 9);
+}
+
+#[test]
+fn nan_in_a_tube_is_refused_by_name() {
+    let (model, mut solution) = rich();
+    let evaluation = evaluate(&model, &solution).unwrap();
+    solution.tubes[0].samples[2].torques[1].1 = f64::NAN;
+    let error = document(&model, &solution, &evaluation).unwrap_err();
+    assert!(error.to_string().contains("tubes.robot.torques[1][2]"), "{error}");
+}
+
+#[test]
 fn compliances_stand_under_the_name_that_an_output_would_give_the_place() {
     let (model, solution) = rich();
     let (_, value) = written(&model, &solution);
@@ -196,8 +231,24 @@ fn a_document_is_read_back_into_the_solution_that_it_was_made_of() {
     assert_eq!(back.joints[1].coordinates, [0.0, 0.0]);
     assert_eq!(back.found, [(1, 3.2)]);
     assert!((back.springs[0].ends[1] - solution.springs[0].ends[1]).norm() < 1e-15);
+    assert_eq!(back.tubes[0].samples.len(), 9);
+    for (a, b) in back.tubes[0].samples.iter().zip(&solution.tubes[0].samples) {
+        assert!((a.s - b.s).abs() < 1e-15 && (a.pose.position - b.pose.position).norm() < 1e-15);
+        assert!((a.wrench.moment - b.wrench.moment).norm() < 1e-15 && a.wrench.force == b.wrench.force);
+        assert_eq!(a.curvature, b.curvature);
+        for (a, b) in [(&a.angles, &b.angles), (&a.torques, &b.torques)] {
+            assert_eq!(a.len(), b.len());
+            assert!(a.iter().zip(b).all(|(a, b)| a.0 == b.0 && (a.1 - b.1).abs() < 1e-15));
+        }
+        assert!(a.pose.rotation.angle_to(&b.pose.rotation) < 1e-14);
+    }
     let (again, _) = written(&model, &solution);
     assert_eq!(again, text);
+
+    // An older document knows of no tubes.
+    let mut older = read_document(&text).unwrap();
+    older.tubes.0.clear();
+    assert!(solution_of(&older, &model).unwrap().tubes[0].samples.is_empty());
 
     // The order of the model counts, not that of the document.
     let mut turned = model.clone();
@@ -227,6 +278,10 @@ fn what_is_no_result_of_this_mechanism_is_refused_with_the_reason() {
     assert!(further.contains("`extra`"), "{further}");
     let short = changed(&|value| drop(value["beams"]["strip"]["force"].as_array_mut().unwrap().pop()));
     assert!(short.contains("broken") && short.contains("`force` has 20"), "{short}");
+    let thin = changed(&|value| drop(value["tubes"]["robot"]["moment"].as_array_mut().unwrap().pop()));
+    assert!(thin.contains("tubes.robot") && thin.contains("`moment` has 8"), "{thin}");
+    let long = changed(&|value| value["tubes"]["robot"]["angles"][1] = json!(vec![0.0; 10]));
+    assert!(long.contains("further than `s`"), "{long}");
     let skewed = changed(&|value| value["bodies"]["tip"]["rotation"] = json!([1.0, 1.0, 0.0, 0.0]));
     assert!(skewed.contains("unit quaternion"), "{skewed}");
     let jointed = changed(&|value| value["joints"]["table"] = value["joints"]["hinge"].clone());

@@ -39,10 +39,11 @@ fn the_vtk_file_holds_one_line_a_beam() {
 }
 
 #[test]
-fn the_vtk_file_holds_cables_behind_the_beams() {
+fn the_vtk_file_holds_tubes_and_cables_behind_the_beams() {
     let (model, solution) = rich();
     let text = model_vtp(&model, &solution, &evaluate(&model, &solution).unwrap());
-    assert!(text.contains("NumberOfPoints=\"50\"") && text.contains("NumberOfLines=\"4\""));
+    assert!(text.contains("NumberOfPoints=\"59\"") && text.contains("NumberOfLines=\"5\""));
+    assert!(text.contains("Name=\"tubes_names\" NumberOfTuples=\"1\"") && text.contains("Name=\"tubes\""));
     assert!(text.contains("Name=\"cable_names\" NumberOfTuples=\"2\"") && text.contains("Name=\"tension\""));
 }
 
@@ -78,11 +79,14 @@ assert abs(mesh.compute_arc_length()["arc_length"].max() - 0.2) < 1e-3
     let script = r#"
 import sys, math, pyvista
 mesh = pyvista.read(sys.argv[1])
-assert mesh.n_points == 50 and mesh.n_lines == 4, mesh
-assert list(mesh.cell_data["cable"]) == [-1, -1, 0, 1] and list(mesh.cell_data["beam"]) == [0, 1, -1, -1]
-assert list(mesh.cell_data["tension"])[2:] == [3.0, 1.5] and math.isnan(mesh.cell_data["tension"][0])
+assert mesh.n_points == 59 and mesh.n_lines == 5, mesh
+assert list(mesh.cell_data["beam"]) == [0, 1, -1, -1, -1] and list(mesh.cell_data["tubes"]) == [-1, -1, 0, -1, -1]
+assert list(mesh.cell_data["cable"]) == [-1, -1, -1, 0, 1] and list(mesh.field_data["tubes_names"]) == ["robot"]
+assert list(mesh.cell_data["tension"])[3:] == [3.0, 1.5] and math.isnan(mesh.cell_data["tension"][0])
 assert list(mesh.field_data["cable_names"]) == ["puller", "bowden"]
-assert list(mesh.points[27]) == [0.1, 0.0, 0.06] and math.isnan(mesh["stress"][27])
+assert list(mesh.points[36]) == [0.1, 0.0, 0.06] and math.isnan(mesh["stress"][36])
+assert list(mesh.points[26]) == [0.0, 0.08, 0.0] and list(mesh["curvature"][34]) == [0.0, 0.0, 5.0]
+assert abs(mesh["s"][34] - 0.08) < 1e-15 and math.isnan(mesh["stretch"][26]) and math.isnan(mesh["displacement"][26][0])
 "#;
     run(script, &path);
 }
@@ -104,13 +108,17 @@ fn the_picture_has_three_views_and_names_what_it_shows() {
 }
 
 #[test]
-fn the_picture_shows_cables_and_every_kind_of_joint() {
+fn the_picture_shows_cables_tubes_and_every_kind_of_joint() {
     let (model, solution) = rich();
     let text = shape_svg(&model, &solution);
     assert!(text.contains(">cable<"));
     // Two cables in three views, and one line in the legend; three eyelets in three views, and one.
     assert_eq!(text.matches("stroke=\"#7b3294\" stroke-width=\"1.2\"").count(), 7);
     assert_eq!(text.matches("r=\"2.4\"").count(), 10);
+    // The robot is the third line: its whole axis in three views and the legend, and the outer tube's part in three.
+    assert!(text.contains(">robot<"));
+    assert_eq!(text.matches("stroke=\"#009e73\" stroke-width=\"2.4\"").count(), 4);
+    assert_eq!(text.matches("stroke=\"#009e73\" stroke-width=\"4.2\"").count(), 3);
     assert!(!text.contains("NaN") && !text.contains("inf"));
     if let Ok(folder) = std::env::var("FLEXURA_PICTURES") {
         std::fs::write(std::path::Path::new(&folder).join("rich.svg"), text).unwrap();

@@ -17,7 +17,8 @@ pub use place::place_name;
 pub use screw::{Screw, center_of_compliance, finite_screw, instantaneous_screw};
 pub use stress::{BeamPeaks, BeamStress, Peak, beam_stress};
 pub use summary::{
-    BeamSummary, BodySummary, CoordinateSummary, JointSummary, OutputSummary, Scales, Summary, summarise,
+    BeamSummary, BodySummary, CoordinateSummary, JointSummary, OutputSummary, Scales, Summary, TubesSummary,
+    summarise,
 };
 
 use flexura_model::{Model, Output, ProbeTarget, Quantity};

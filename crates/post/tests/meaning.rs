@@ -5,7 +5,7 @@
 
 use flexura_expression::Formula;
 use flexura_model::*;
-use flexura_post::{OutputValue, PostError, evaluate, summarise};
+use flexura_post::{OutputValue, PostError, evaluate, place_name, summarise};
 use flexura_solution::*;
 use flexura_spatial::{Matrix3, Pose, Vector3, Wrench, exp};
 
@@ -165,6 +165,58 @@ fn outputs_read_beams_bodies_and_the_whole() {
 }
 
 #[test]
+fn outputs_and_summary_read_the_tip_of_concentric_tubes() {
+    let (mut model, mut solution) = strip(0.0, 0.0);
+    let tube = Tube {
+        material: None,
+        section: SectionId(0),
+        straight: 0.1,
+        curved: 0.1,
+        curvature: 5.0,
+        rotation: 0.0,
+        translation: 0.0,
+    };
+    model.tubes.push(Tubes {
+        name: "robot".into(),
+        base: Frame { mount: Mount::Ground, pose: Pose::identity() },
+        tubes: vec![tube.clone(), tube.clone(), Tube { translation: -0.3, ..tube }],
+        force: Vector3::zeros(),
+        moment: Vector3::zeros(),
+    });
+    let sample = |s: f64, torque: f64| TubesSample {
+        s,
+        pose: Pose::new(exp(&Vector3::new(0.0, 0.0, 2.0 * s)), Vector3::new(4.0 * s, s, 0.0)),
+        wrench: Wrench::zero(),
+        curvature: Vector3::zeros(),
+        angles: vec![(0, 0.0), (1, 0.3)],
+        torques: vec![(0, -torque), (1, torque)],
+    };
+    solution.tubes.push(TubesSolution { samples: vec![sample(0.0, 0.02), sample(0.2, 0.0)] });
+    let tip = ProbeTarget::Tubes(TubesId(0));
+    assert_eq!(place_name(&model, &tip), "tubes.robot");
+    model.outputs = vec![
+        output("position", tip, Quantity::Position, 3),
+        output("rotation", tip, Quantity::Rotation, 3),
+        output("tangent", tip, Quantity::Tangent, 3),
+    ];
+    let evaluation = evaluate(&model, &solution).unwrap();
+    let wanted = [[0.8, 0.2, 0.0], [0.0, 0.0, 0.4], [0.4f64.cos(), 0.4f64.sin(), 0.0]];
+    for (output, wanted) in evaluation.outputs.iter().zip(wanted) {
+        let OutputValue::Vector(value) = output.value else { panic!() };
+        assert!((Vector3::from(value) - Vector3::from(wanted)).norm() < 1e-15, "{}", output.name);
+    }
+    let summary = summarise(&model, &solution, &evaluation);
+    let tubes = &summary.tubes[0];
+    assert_eq!((tubes.name.as_str(), tubes.length, tubes.tip), ("robot", 0.2, Vector3::new(0.8, 0.2, 0.0)));
+    // The third ends inside the guide.
+    assert_eq!(tubes.torques, [-0.02, 0.02, 0.0]);
+    assert_eq!(summary.scales.moment, 0.02);
+
+    model.outputs = vec![output("w", tip, Quantity::Displacement, 3)];
+    assert!(matches!(evaluate(&model, &solution), Err(PostError::NoSuchQuantity { .. })));
+}
+
+#[test]
 fn an_output_that_is_no_number_is_an_error_with_its_name() {
     let (mut model, mut solution) = strip(100.0, 0.5);
     model.outputs = vec![output("w", ProbeTarget::Body(BodyId(0)), Quantity::Position, 3)];
@@ -207,6 +259,7 @@ fn quantities_that_a_target_lacks_are_errors() {
         (ProbeTarget::Joint(JointId(0)), Quantity::Effort),
         (ProbeTarget::Spring(SpringId(3)), Quantity::Length),
         (ProbeTarget::Model, Quantity::Position),
+        (ProbeTarget::Tubes(TubesId(0)), Quantity::Position),
     ] {
         model.outputs = vec![output("w", target, quantity, 1)];
         assert!(matches!(evaluate(&model, &solution), Err(PostError::NoSuchQuantity { .. })));

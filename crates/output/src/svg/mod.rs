@@ -101,7 +101,7 @@ fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
             canvas.line(panel.point(&body.initial), panel.point(&arm.initial), &initial);
         }
     }
-    for beam in scene.beams.iter().filter(|beam| !beam.initial.is_empty()) {
+    for beam in &scene.beams {
         canvas.curve(&pieces(panel, &beam.initial), &initial);
     }
     for spring in &scene.springs {

@@ -180,8 +180,46 @@ pub fn solution() -> Solution {
     }
 }
 
+/// Two concentric tubes on an arc about z, the outer one half as long, with a force on the tip.
+pub fn robot() -> (Tubes, TubesSolution) {
+    let tube = |curved: f64, rotation: f64| Tube {
+        material: None,
+        section: SectionId(1),
+        straight: 0.02,
+        curved,
+        curvature: 12.0,
+        rotation,
+        translation: -0.02,
+    };
+    let base = Frame { mount: Mount::Ground, pose: Pose::translation(Vector3::new(0.0, 0.08, 0.0)) };
+    let samples = (0..=8).map(|i| {
+        let s = 0.01 * f64::from(i);
+        let angle = 5.0 * s;
+        let position = Vector3::new(angle.sin(), 1.0 - angle.cos(), 0.0) / 5.0;
+        let numbers = if i <= 4 { 0..2 } else { 0..1 };
+        let turn = 0.5 - 2.0 * s;
+        TubesSample {
+            s,
+            pose: base.pose * Pose::new(exp(&Vector3::new(0.0, 0.0, angle)), position),
+            wrench: Wrench::new(Vector3::new(0.0, 0.0, -0.1), Vector3::new(0.0, 0.1 * (0.08 - s), 0.0)),
+            curvature: Vector3::new(0.0, 0.0, 5.0),
+            angles: numbers.clone().map(|tube| (tube, tube as f64 * turn)).collect(),
+            torques: numbers.map(|tube| (tube, (0.04 - s) * [-0.25, 0.25][tube])).collect(),
+        }
+    });
+    let result = TubesSolution { samples: samples.collect() };
+    let tubes = Tubes {
+        name: "robot".into(),
+        base,
+        tubes: vec![tube(0.08, 0.0), tube(0.04, 0.5)],
+        force: Vector3::new(0.0, 0.0, -0.1),
+        moment: Vector3::zeros(),
+    };
+    (tubes, result)
+}
+
 /// The same with what few mechanisms have: a bevel of two universal coordinates, a planar and a cylindrical joint, a
-/// coupling, two cables, a compliance, sensitivities and a parameter that was found.
+/// coupling, two cables, two concentric tubes, a compliance, sensitivities and a parameter that was found.
 pub fn rich() -> (Model, Solution) {
     let (mut model, mut solution) = (model(), solution());
     let kinds = [
@@ -248,6 +286,10 @@ pub fn rich() -> (Model, Solution) {
     });
     let channel = (0..=20).map(|i| arc(LENGTH * f64::from(i) / 20.0).point(&Vector3::new(0.0, 0.0, -0.006)));
     solution.cables.push(CableSolution { course: channel.collect(), length: 0.2, tension: 1.5 });
+
+    let (tubes, result) = robot();
+    model.tubes.push(tubes);
+    solution.tubes.push(result);
 
     let matrix = |i: usize, j: usize| if i == j { 1.0 + i as f64 } else { 0.01 * (i + j) as f64 };
     let motion = Twist { angular: Vector3::new(0.0, 1.2, 0.0), linear: Vector3::new(-0.05, 0.0, -0.1) };
