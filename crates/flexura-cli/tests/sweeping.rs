@@ -25,7 +25,7 @@ fn a_sweep_is_one_solve_a_row() {
     let rows = rows(&stdout(&output));
     assert_eq!(rows.len(), 6);
     assert_eq!(rows[0][..2], ["force [N]", "status"]);
-    assert_eq!(rows[0][rows[0].len() - 3..], ["energy [J]", "error_estimate", "reason"]);
+    assert_eq!(rows[0][rows[0].len() - 4..], ["energy [J]", "error_estimate", "reason", "warnings"]);
     let forces: Vec<String> = (1..=5).map(|row| cell(&rows, row, "force [N]")).collect();
     assert_eq!(forces, ["2.0", "4.0", "6.0", "8.0", "10.0"]);
     // Mattiasson (1981), P L^2 / EI = 2 and 10.
@@ -122,7 +122,8 @@ fn a_sample_that_fails_is_a_row_and_not_the_end() {
             "root",
             "energy [J]",
             "error_estimate",
-            "reason"
+            "reason",
+            "warnings"
         ]
     );
     assert_eq!(rows[2][..9], ["-0.05", "1.0", "input_error", "", "", "", "", "", ""]);

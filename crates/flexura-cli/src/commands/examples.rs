@@ -28,6 +28,7 @@ const MODELS: &[(&str, &str)] = &bundled![
     "four_bar",
     "sensor_clamp",
     "tendon_robot",
+    "concentric_tubes",
     "bistable_beam",
     "cable_polygon",
     "cartwheel_hinge",

@@ -30,7 +30,7 @@ pub const CASES: [Case; 7] = [
         title: "`rigid_four_bar.toml`: position, torque, forces in the plane, and the forces across it that three \
                 redundant conditions leave open",
         citation: "two circles' meeting (the closed form of F. Freudenstein, *Trans. ASME* 77 (1955) 853), virtual work, \
-                   and the least norm Aᵀ(A Aᵀ)⁻¹b of forces and moments/L in balance, L = 100 mm",
+                   and the least norm Aᵀ(A Aᵀ)⁻¹b of forces and moments/L in balance, L = 68 mm, the reach of the bodies about their middle",
         needed: "1e-10 of 1 rad, of the largest force and moment",
         run: four_bar,
         closed_form: None,
@@ -160,7 +160,7 @@ fn four_bar() -> Result<Vec<Row>, String> {
 }
 
 /// Length by which moments are divided in the norm: of a model without beams, the farthest body's distance.
-const NORM_LENGTH: f64 = 0.1;
+const NORM_LENGTH: f64 = 0.067_986_926_847_903_8;
 
 fn across_part(answer: &Answer, joint: &str) -> [f64; 3] {
     let (force, moment) =
