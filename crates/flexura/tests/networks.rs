@@ -1,5 +1,7 @@
 //! Lattices: large enough for the sparse factorisation, small enough to be checked by statics.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail where it stands")]
+
 use flexura::model::Model;
 use flexura::modelfile::Document;
 use flexura::solution::{Solution, Status};

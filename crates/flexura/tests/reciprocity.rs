@@ -5,6 +5,8 @@
 //! part that turns freely in space has none (its work depends on the order of turns), nor has a follower; the
 //! tangent's antisymmetric part is then half the moment's cross matrix, or worse.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail where it stands")]
+
 use flexura::model::Model;
 use flexura::modelfile::Document;
 use flexura::post::OutputValue;
