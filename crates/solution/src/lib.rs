@@ -213,6 +213,8 @@ pub struct Sensitivities {
     /// Of an inverse problem: for each unknown parameter, for each of these (given) parameters, d unknown / d given while
     /// the targets are kept.
     pub unknowns: Vec<Vec<f64>>,
+    /// Parameters that are left out because models next to this one make no sense, with the reason.
+    pub left_out: Vec<(usize, String)>,
     /// For each body, for each of these parameters: motion of its origin and turning per unit.
     pub bodies: Vec<Vec<Twist>>,
 }

@@ -125,15 +125,23 @@ impl Prepared {
         let outputs: usize = components.iter().sum();
         let (bodies, targets) = (model.bodies.len(), model.targets.len());
         let unknown: Vec<usize> = model.unknowns.iter().map(|u| u.parameter).collect();
-        let given: Vec<usize> = parameters.iter().copied().filter(|p| !unknown.contains(p)).collect();
-        let mut columns = Vec::new();
+        let mut given: Vec<usize> = parameters.iter().copied().filter(|p| !unknown.contains(p)).collect();
+        let (mut columns, mut left_out) = (Vec::new(), Vec::new());
         for &parameter in unknown.iter().chain(&given) {
             let value = self.problem.model().parameters[parameter].value;
             let size = size_of(self.problem.model(), parameter, self.problem.units(), SMALL);
-            let (slopes, along) = self.slopes(family, parameter, value, size)?;
+            let (slopes, along) = match self.slopes(family, parameter, value, size) {
+                Ok(found) => found,
+                Err(SensitivityError::Model(error)) if !unknown.contains(&parameter) => {
+                    left_out.push((parameter, error.message));
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
             let twists = self.problem.body_motions(&along);
             columns.push((slopes, twists));
         }
+        given.retain(|parameter| left_out.iter().all(|(out, _)| out != parameter));
         // What an unknown parameter must do so that the targets are kept while a given one moves.
         let given_columns = columns.split_off(unknown.len());
         let matrix = DMatrix::from_fn(targets, unknown.len(), |i, k| columns[k].0[outputs + i]).lu();
@@ -141,6 +149,7 @@ impl Prepared {
             parameters: given.clone(),
             outputs: components.iter().map(|n| vec![Vec::new(); *n]).collect(),
             unknowns: vec![Vec::new(); unknown.len()],
+            left_out,
             bodies: vec![Vec::new(); bodies],
         };
         for (mut slopes, mut twists) in given_columns {

@@ -414,7 +414,13 @@ pub fn solve_family(
         if options.sensitivities {
             let parameters: Vec<usize> = (0..model.parameters.len()).collect();
             match prepared.sensitivities(family, &parameters) {
-                Ok(sensitivities) => solution.sensitivities = Some(sensitivities),
+                Ok(sensitivities) => {
+                    for (parameter, reason) in &sensitivities.left_out {
+                        let name = &prepared.model().parameters[*parameter].name;
+                        solution.warnings.push(format!("no sensitivities to `{name}`: {reason}"));
+                    }
+                    solution.sensitivities = Some(sensitivities);
+                }
                 Err(error) => solution.warnings.push(error.to_string()),
             }
         }

@@ -3,7 +3,6 @@ use crate::Dense;
 
 mod examples;
 mod growth;
-mod measurements;
 
 use examples::{Example, Numbers, beams, lattice, network};
 

@@ -326,6 +326,7 @@ pub fn rich() -> (Model, Solution) {
     model.parameters.push(Parameter { name: "push".into(), value: 3.2, unit: "N".into() });
     solution.sensitivities = Some(Sensitivities {
         unknowns: Vec::new(),
+        left_out: Vec::new(),
         parameters: vec![0, 1],
         outputs: vec![vec![vec![-0.1, 0.02]], vec![vec![0.05, 0.0], vec![0.0, 0.0], vec![-0.1, 0.02]]],
         bodies: vec![vec![motion; 2]; 8],
