@@ -123,7 +123,7 @@ pub use flexura_post as post;
 pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;
 pub use flexura_study::{
-    Census, Equilibrium, Family, Options, Outcome, Prepared, ProblemError, Progress, SensitivityError, check,
-    equilibria, solve, solve_family,
+    Census, Equilibrium, Family, Options, Outcome, Prepared, ProblemError, Progress, SensitivityError,
+    TraceProgress, buckle, check, equilibria, solve, solve_family, trace,
 };
 pub use solve_file::{Error, Solved, solve_file};

@@ -15,6 +15,7 @@ mod material;
 mod notch;
 mod output;
 mod profile;
+mod study;
 mod tubes;
 mod validate;
 
@@ -30,6 +31,7 @@ pub use material::{Material, Section, Shape};
 pub use notch::{Notch, NotchShape};
 pub use output::{Output, Probe, ProbeTarget, Quantity};
 pub use profile::{At, Profile};
+pub use study::{BuckleStudy, CriticalStudy, Stop, Study, StudyKind, TraceStudy};
 pub use tubes::{Tube, Tubes};
 pub use validate::{Issue, name_problem};
 
@@ -125,4 +127,6 @@ pub struct Model {
     pub unknowns: Vec<Unknown>,
     /// Results with wanted values.
     pub targets: Vec<Target>,
+    /// What is to be done with it.
+    pub studies: Vec<Study>,
 }

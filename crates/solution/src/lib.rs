@@ -3,6 +3,13 @@
 //! Lists run parallel to the model's lists: `beams[i]` belongs to `model.beams[i]`. SI units, global axes
 //! unless said otherwise. `F` and `M` act, by the part beyond s, on the part before s.
 
+mod trace;
+
+pub use trace::{
+    Branch, BranchEnd, BranchOrigin, Buckling, BucklingMode, CriticalCurve, Crossing, Direction, PointKind,
+    Trace, TracePoint, TraceWork,
+};
+
 use flexura_model::ProbeTarget;
 use flexura_spatial::{Matrix6, Pose, Twist, Vector3, Wrench};
 

@@ -5,12 +5,14 @@ mod inverse;
 mod search;
 mod sensitivity;
 mod solve;
+mod trace;
 
 pub use family::Family;
 pub use flexura_equilibrium::{Census, Equilibrium, ProblemError};
 pub use search::equilibria;
 pub use sensitivity::SensitivityError;
 pub use solve::{Options, Outcome, Prepared, Progress, solve, solve_family};
+pub use trace::{TraceProgress, buckle, trace};
 
 use flexura_model::Model;
 
