@@ -8,7 +8,7 @@ use crate::mesh::{Level, SpanMesh};
 use crate::shooting::{Plain, SegmentEnd};
 use flexura_mechanics::joint::Configuration;
 use flexura_model::{BeamPoint, JointKind, LoadId, LoadTarget, Model};
-use flexura_nonlinear::{BLOCK, Breakdown, Chain, Matrix, System};
+use flexura_nonlinear::{BLOCK, Breakdown, Chain, Lift, Liftable, Matrix, System};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, exp, log};
 
 /// A model made ready to be solved, again and again, from rest or from where it stands.
@@ -30,6 +30,9 @@ pub struct Equilibrium {
     pub(crate) chains: Vec<Chain>,
     /// Is the tangent factorised, in the present layout?
     pub(crate) factorised: bool,
+    /// An entry that is lifted in tangents, and by how much it was in the last one.
+    lift: Option<Lift>,
+    lifted_by: f64,
     /// An earlier tangent, factorised.
     kept: (Matrix, Vec<Chain>),
     pub(crate) gaps: Vec<Vec<[f64; BLOCK]>>,
@@ -67,6 +70,8 @@ pub struct Counts {
     pub factorisations: usize,
     /// Residuals evaluated without a tangent.
     pub residuals: usize,
+    /// Second variations whose negative directions were counted.
+    pub inertias: usize,
 }
 
 impl Equilibrium {
@@ -98,6 +103,8 @@ impl Equilibrium {
             tangent: Matrix::default(),
             chains: Vec::new(),
             factorised: false,
+            lift: None,
+            lifted_by: 0.0,
             kept: (Matrix::default(), Vec::new()),
             gaps: Vec::new(),
             r: Vec::new(),
@@ -358,6 +365,13 @@ impl System for Equilibrium {
         self.counts.factorisations += 1;
         self.factorised = false;
         self.evaluate(true)?;
+        self.lifted_by = 0.0;
+        if let Some(Lift { row, column }) = self.lift {
+            let mut largest = 0.0_f64;
+            self.tangent.for_each(|i, _, value| if i == row { largest = largest.max(value.abs()) });
+            self.lifted_by = largest;
+            self.tangent.add(row, column, largest);
+        }
         self.tangent.factorise()?;
         self.factorised = true;
         Ok(())
@@ -514,5 +528,34 @@ impl System for Equilibrium {
         let changed = self.resegment();
         self.restep(self.accuracy, true);
         changed
+    }
+}
+
+impl Liftable for Equilibrium {
+    fn lift_rows(&self) -> Vec<usize> {
+        // What stands in the rows of an inner state comes out of the elimination of those before it.
+        let inner: Vec<usize> =
+            self.layout.spans.iter().filter_map(|s| s.inner.last().map(|i| i.unknown)).collect();
+        (0..self.layout.interface).filter(|row| !inner.iter().any(|u| (*u..u + BLOCK).contains(row))).collect()
+    }
+
+    fn lift_columns(&self) -> usize {
+        self.layout.interface
+    }
+
+    fn set_lift(&mut self, lift: Option<Lift>) {
+        self.lift = lift;
+        self.factorised = false;
+    }
+
+    fn lifted_by(&self) -> f64 {
+        self.lifted_by
+    }
+
+    fn unit_step(&mut self, row: usize, step: &mut [f64]) {
+        self.r.fill(0.0);
+        self.gaps.iter_mut().flatten().for_each(|gap| *gap = [0.0; BLOCK]);
+        self.r[row] = -1.0;
+        self.newton_step(step);
     }
 }

@@ -17,4 +17,4 @@ pub use homotopy::{PathEnd, PathOptions, PathWork, follow};
 pub use matrix::Matrix;
 pub use newton::{NewtonEnd, NewtonOptions, converge};
 pub use sparse::{BlockPlace, Sparse};
-pub use system::{Breakdown, System};
+pub use system::{Breakdown, Lift, Liftable, System};
