@@ -191,21 +191,60 @@ impl Walker {
         self.is_tangent_here = false;
     }
 
-    /// Takes the point before the last step as the present one again, with the tangent of the layout now in force.
-    pub fn relaid<P: Problem>(&mut self, problem: &mut P, tangent: Tangent) -> Result<(), Refusal> {
-        problem.system().linearise()?;
-        let (slope, mut fresh) = direction_here(problem)?;
-        if fresh.product(problem.system(), &tangent.step, tangent.parameter) < 0.0 {
-            fresh.scale(-1.0);
+    /// Brings the present point back to the path after the problem's discretisation has changed; `tangent` is the path's
+    /// direction in the layout that is now in force, if that is another one.
+    ///
+    /// # Errors
+    /// No point is found near.
+    pub fn polish<P: Problem>(&mut self, problem: &mut P, tangent: Option<Tangent>) -> Result<(), Stall> {
+        if let Some(tangent) = tangent {
+            self.here.tangent = tangent.normalised(problem.system());
+            self.here.point = Point::here(problem);
+            self.before = None;
+            self.last = None;
         }
-        self.here.slope = slope;
-        self.here.tangent = fresh;
-        self.here.point = Point::here(problem);
-        self.here.positive = problem.system().orientation();
-        self.before = None;
-        self.last = None;
+        self.is_tangent_here = false;
+        self.here.point.restore(problem).map_err(stall)?;
+        let limits = Limits { tolerance: self.options.tolerance, farthest: 1.0, reach: self.options.largest_change };
+        let polished = correct(problem, &self.here.tangent, None, &limits);
+        polished.map_err(|_| Stall::Short)?;
+        problem.system().linearise().map_err(|b| stall(b.into()))?;
+        let (slope, mut tangent) = direction_here(problem).map_err(stall)?;
+        let ahead = &self.here.tangent;
+        if tangent.product(problem.system(), &ahead.step, ahead.parameter) < 0.0 {
+            tangent.scale(-1.0);
+        }
+        self.here = Place {
+            point: Point::here(problem),
+            positive: problem.system().orientation(),
+            index: problem.index(),
+            arc: self.here.arc,
+            tangent,
+            slope,
+        };
         self.is_tangent_here = true;
         Ok(())
+    }
+
+    /// Where a point lies along the last step, as a part of it.
+    pub fn part_of<P: Problem>(&self, problem: &mut P, point: &Point) -> f64 {
+        let Some((left, width)) = &self.last else { return 1.0 };
+        let to = between(problem, &left.point, point);
+        left.tangent.product(problem.system(), &to.step, to.parameter) / width
+    }
+
+    /// The way along the path at a part of the last step.
+    pub fn arc_at(&self, part: f64) -> f64 {
+        self.last.as_ref().map_or(self.here.arc, |(left, width)| left.arc + part * width)
+    }
+
+    /// The size of the correction that takes a step `u = -J⁻¹ r` of the present point back to the plane across the path: what an
+    /// error of the residual does to the point.
+    pub fn across<S: flexura_nonlinear::Liftable>(&self, system: &S, u: &[f64]) -> f64 {
+        let Place { tangent, slope, .. } = &self.here;
+        let dp = -tangent.product(system, u, 0.0) / tangent.product(system, slope, 1.0);
+        let step: Vec<f64> = u.iter().zip(slope).map(|(u, v)| u + v * dp).collect();
+        system.size(&step).max(dp.abs())
     }
 
     /// One step along the path. The problem stands at the new point afterwards.

@@ -17,6 +17,8 @@ pub struct Equilibrium {
     pub(crate) model: Model,
     /// Places on beams that have a node because their motion is asked for.
     pub(crate) probes: Vec<BeamPoint>,
+    /// Places on beams that are sampled besides those that outputs ask for.
+    pub(crate) watched: Vec<BeamPoint>,
     pub(crate) lowered: Lowered,
     pub(crate) meshes: Vec<SpanMesh>,
     pub(crate) layout: Layout,
@@ -94,6 +96,7 @@ impl Equilibrium {
         let mut this = Self {
             model: model.clone(),
             probes,
+            watched: Vec::new(),
             meshes: Vec::new(),
             layout: Layout::default(),
             x: Vec::new(),
@@ -136,6 +139,16 @@ impl Equilibrium {
     /// Work done since the state was last put at rest.
     pub fn counts(&self) -> Counts {
         self.counts
+    }
+
+    /// Goes on counting from these.
+    pub fn set_counts(&mut self, counts: Counts) {
+        self.counts = counts;
+    }
+
+    /// Places on beams that are samples of every solution from now on, besides those that outputs ask for.
+    pub fn watch(&mut self, places: Vec<BeamPoint>) {
+        self.watched = places;
     }
 
     /// Length (m) and force (N) that count as one.

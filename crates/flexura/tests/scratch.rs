@@ -1,43 +1,75 @@
 use flexura::modelfile::Document;
-use flexura::{Prepared};
-fn index(text: &str) -> (flexura::solution::Status, String) {
-    let model = Document::parse(text, "x.toml").map_err(|e| e.render(false)).unwrap().model(&[]).map_err(|e| e.render(false)).unwrap();
-    let mut p = Prepared::new(&model).map_err(|e| e.message).unwrap();
-    let o = p.solve(1e-9, &mut |_| {});
-    let s = p.problem().stability();
-    (o.status, format!("{s:?} tip {:?}", p.problem().tip()))
-}
-fn column(n: f64, end: &str) -> String {
-    format!(r#"
+use flexura::solution::*;
+use flexura::model::*;
+use flexura::{FileFamily, Options};
+const STRIP: &str = r#"
 format = 1
+gravity = [0, 0, "-1 m/s^2"]
+[parameter]
+n = 0
+weight = 0
+slope = "0 deg"
 [section.s]
 shape = "stiffness"
-EA = "1e4 N"
+EA = "1 N"
 GJ = "0.8 N*m^2"
 EI2 = "1 N*m^2"
-EI3 = "3 N*m^2"
+EI3 = "30 N*m^2"
 [beam.b]
 section = "s"
 length = "1 m"
-start = {{ body = "ground", hold = "clamp" }}
-{end}
-"#) + &if end.is_empty() { format!("[load.p]\nbeam = \"b\"\nat = 1\nforce = [{}, 0, 0]\n", -n) } else {
-    format!("[body.slider]\nat = [1, 0, 0]\n[joint.way]\nkind = \"prismatic\"\nparent = {{ body = \"ground\", at = [1,0,0] }}\nchild = \"slider\"\naxis = [1,0,0]\n[load.p]\nbody = \"slider\"\nforce = [{}, 0, 0]\n", -n) }
-}
-#[test]
-fn columns() {
-    let pi2 = std::f64::consts::PI.powi(2);
-    for f in [0.9, 1.1, 2.9, 3.1, 8.9, 9.1, 26.9, 27.1] {
-        println!("free {f}: {:?}", index(&column(f * pi2 / 4.0, "")));
-    }
-    for f in [0.9, 1.1, 2.02, 2.1, 2.9, 3.1, 3.9, 4.1] {
-        println!("clamped {f}: {:?}", index(&column(f * pi2 * 4.0, "end = { body = \"slider\", hold = \"clamp\" }")));
-    }
-    for name in std::fs::read_dir("../../models").unwrap() {
-        let path = name.unwrap().path();
-        if path.extension().is_some_and(|e| e == "toml") && !path.display().to_string().contains("lattice") {
-            let text = std::fs::read_to_string(&path).unwrap();
-            println!("{}: {:?}", path.display(), index(&text));
+extension = false
+start = { body = "ground", hold = "clamp" }
+end = { body = "slider", hold = "clamp" }
+[body.slider]
+at = [1, 0, 0]
+[joint.way]
+kind = "prismatic"
+parent = { body = "ground", at = [1,0,0] }
+child = "slider"
+axis = [1,0,0]
+[load.p]
+body = "slider"
+force = ["-n*2.4674011002723395 N", 0, 0]
+[load.w]
+beam = "b"
+at = 0.5
+force = ["-weight*sin(slope)*2.4674011002723395 N", 0, "-weight*cos(slope)*2.4674011002723395 N"]
+[output]
+u1 = "joint.way.coordinate"
+w = "beam.b[0.5].position.z"
+"#;
+fn show(t: &Trace) {
+    println!("{:?} {:?} {:?} stab {:?} {:?}", t.status, t.reason, t.warnings, t.stability_reason, t.work);
+    for (i, b) in t.branches.iter().enumerate() {
+        println!("branch {i} {:?} {} points, ends {:?}", b.origin, b.points.len(), b.ends);
+        for p in &b.points {
+            if p.kind != PointKind::Regular {
+                println!("  {:?} p {:.12} out {:?} idx {:?} err {:.1e}", p.kind, p.parameter, p.outputs, p.unstable_directions, p.error_estimate);
+            }
         }
     }
+    if let Some(c) = &t.critical {
+        println!("critical {:?} ends {:?}", c.kind, c.ends);
+        for (q, p) in &c.points { println!("   {q} {:.12} {:?}", p.parameter, p.outputs); }
+    }
+}
+fn go(text: &str, over: &[(&str, &str)], study: TraceStudy, name: &str) -> Trace {
+    let over: Vec<(String, String)> = over.iter().map(|(a, b)| (a.to_string(), b.to_string())).collect();
+    let doc = Document::parse(text, "x.toml").map_err(|e| e.render(false)).unwrap();
+    let model = doc.model(&over).map_err(|e| e.render(false)).unwrap();
+    let mut family = FileFamily::new(&doc, &over, &model);
+    let now = std::time::Instant::now();
+    let t = flexura::trace(&model, &mut family, &study, &Options { tolerance: 1e-9, ..Options::default() }, &mut |_| {}).map_err(|e| e.message).unwrap();
+    println!("--- {name} in {:?}", now.elapsed());
+    show(&t);
+    t
+}
+#[test]
+fn strip() {
+    go(STRIP, &[], TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 5, ..Default::default() }, "plain");
+    go(STRIP, &[("weight", "0.8")], TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 5, imperfection: Some((2, 100.0_f64.to_radians())), ..Default::default() }, "weight");
+    go(STRIP, &[("weight", "0.8"), ("slope", "90 deg")], TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 0, ..Default::default() }, "slope 90");
+    go(STRIP, &[("weight", "0.8")], TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 5, guesses: 5, ..Default::default() }, "guesses");
+    go(STRIP, &[("weight", "0.8")], TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 5, imperfection: Some((2, 100.0_f64.to_radians())), critical: Some(CriticalStudy { parameter: 1, range: [0.1, 1.6], number: 1}),..Default::default() }, "critical");
 }

@@ -62,7 +62,7 @@ impl Equilibrium {
         let mut end = SegmentEnd::new();
         let mut cuts = Vec::with_capacity(self.lowered.spans.len());
         for span in 0..self.lowered.spans.len() {
-            cuts.push(self.cut(span, &mut end)?);
+            cuts.push(self.short_stretches(span, &mut end)?);
         }
         let mut total = self.layout.interface;
         let mut numbers = Vec::with_capacity(cuts.len());

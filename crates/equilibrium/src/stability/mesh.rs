@@ -42,7 +42,7 @@ pub(super) struct Cut {
 }
 
 impl Equilibrium {
-    pub(super) fn cut(&self, span: usize, end: &mut SegmentEnd) -> Result<Cut, Breakdown> {
+    pub(super) fn short_stretches(&self, span: usize, end: &mut SegmentEnd) -> Result<Cut, Breakdown> {
         let description = &self.lowered.spans[span];
         let law = &self.lowered.beams[description.beam];
         let mesh = &self.meshes[span];
