@@ -319,6 +319,44 @@ impl Factors {
         }
     }
 
+    /// Overwrites `y` and writes A⁻ᵀ y to `x`: with P S A Q = L U, forward with Uᵀ by columns and back with Lᵀ by rows.
+    pub fn solve_transposed(&self, y: &mut [f64], x: &mut [f64], gathered: &mut Vec<f64>) {
+        for piece in &self.pieces {
+            let Piece { size, pivots, list, numbers } = *piece;
+            let columns = &self.columns[list..list + size];
+            gathered.clear();
+            gathered.extend(columns.iter().map(|&i| y[i as usize]));
+            for (k, row) in self.numbers[numbers..][..pivots * size].chunks_exact(size).enumerate() {
+                let value = gathered[k] / row[k];
+                gathered[k] = value;
+                subtract(&mut gathered[k + 1..], value, &row[k + 1..]);
+            }
+            for (&i, &value) in columns.iter().zip(gathered.iter()) {
+                y[i as usize] = value;
+            }
+        }
+        for piece in self.pieces.iter().rev() {
+            let Piece { size, pivots, list, numbers } = *piece;
+            let rows = &self.rows[list..list + size];
+            gathered.clear();
+            gathered.extend(self.columns[list..list + pivots].iter().map(|&i| y[i as usize]));
+            let (upper, lower) = self.numbers[numbers..].split_at(pivots * size);
+            if pivots > 0 {
+                for (row, &i) in lower.chunks_exact(pivots).zip(&rows[pivots..]) {
+                    subtract(gathered, x[i as usize], row);
+                }
+            }
+            for (k, row) in upper.chunks_exact(size).enumerate().rev() {
+                let (before, value) = gathered.split_at_mut(k);
+                subtract(before, value[0], &row[..k]);
+                x[rows[k] as usize] = value[0];
+            }
+        }
+        for (x, scale) in x.iter_mut().zip(&self.scale) {
+            *x *= scale;
+        }
+    }
+
     /// Numbers held.
     pub fn fill(&self) -> usize {
         self.numbers.len()
@@ -355,6 +393,13 @@ fn all_finite(v: &[f64]) -> bool {
         }
     }
     lanes.iter().all(|&v| v == 0.0) && rest.iter().all(|v| v.is_finite())
+}
+
+/// to -= factor * from
+fn subtract(to: &mut [f64], factor: f64, from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to -= factor * from;
+    }
 }
 
 /// The scalar product, in eight sums side by side.
