@@ -1,9 +1,10 @@
 //! The numeric phase: fronts put together and eliminated up the tree, and the solves with what is kept of them.
 
-use super::front::{Bench, Front, TINY, eliminate, largest};
+use super::front::{Bench, Front, TINY, eliminate};
 use super::pattern::Pattern;
 use super::symbolic::Tree;
 use crate::Breakdown;
+use crate::lanes::{all_finite, dot, largest, subtract};
 
 /// What is kept of one front.
 #[derive(Clone, Copy, Debug)]
@@ -381,36 +382,4 @@ fn find_runs(columns: &[u32], column_at: &[u32], runs: &mut Vec<Run>) {
             _ => runs.push(Run { from, to, count: 1 }),
         }
     }
-}
-
-/// Zero times anything that is not finite is not a number.
-fn all_finite(v: &[f64]) -> bool {
-    let (chunks, rest) = v.as_chunks::<8>();
-    let mut lanes = [0.0; 8];
-    for chunk in chunks {
-        for i in 0..8 {
-            lanes[i] += 0.0 * chunk[i];
-        }
-    }
-    lanes.iter().all(|&v| v == 0.0) && rest.iter().all(|v| v.is_finite())
-}
-
-/// to -= factor * from
-fn subtract(to: &mut [f64], factor: f64, from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to -= factor * from;
-    }
-}
-
-/// The scalar product, in eight sums side by side.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
-    let mut lanes = [0.0; 8];
-    for (a, b) in a.iter().zip(b) {
-        for i in 0..8 {
-            lanes[i] += a[i] * b[i];
-        }
-    }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7])) + rest
 }
