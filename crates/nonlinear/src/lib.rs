@@ -5,9 +5,11 @@ mod chain;
 mod deflation;
 mod dense;
 mod homotopy;
+mod lanes;
 mod matrix;
 mod newton;
 mod sparse;
+mod symmetric;
 mod system;
 
 pub use chain::{BLOCK, Block, Chain};
@@ -17,4 +19,5 @@ pub use homotopy::{PathEnd, PathOptions, PathWork, follow};
 pub use matrix::Matrix;
 pub use newton::{NewtonEnd, NewtonOptions, converge};
 pub use sparse::{BlockPlace, Sparse};
+pub use symmetric::{DenseSymmetric, Inertia, Symmetric};
 pub use system::{Breakdown, Lift, Liftable, System};

@@ -5,6 +5,8 @@
 //! in registers. A column whose best complete row is too weak beside the rest is set aside, tried again once
 //! others are gone, and at last left over for the parent.
 
+use crate::lanes::largest;
+
 /// Columns of a panel.
 const PANEL: usize = 32;
 /// Rows of a tile.
@@ -156,20 +158,6 @@ fn eliminate_panel(front: &mut Front, first: usize, width: usize, panel: &mut [f
         k += 1;
     }
     k
-}
-
-/// The largest magnitude; what is not a number does not count.
-#[inline(always)]
-pub(super) fn largest(v: &[f64]) -> f64 {
-    let (chunks, rest) = v.as_chunks::<8>();
-    let mut lanes = [0.0_f64; 8];
-    for chunk in chunks {
-        for i in 0..8 {
-            let x = chunk[i].abs();
-            lanes[i] = if x > lanes[i] { x } else { lanes[i] };
-        }
-    }
-    lanes.iter().chain(rest).fold(0.0, |m, x| if x.abs() > m { x.abs() } else { m })
 }
 
 /// Takes the pivots of a panel through the columns to its right.

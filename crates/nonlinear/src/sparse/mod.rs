@@ -147,6 +147,21 @@ impl Sparse {
     /// Solves in place, with one step of refinement where weak pivots have spoilt the solution and the entries are
     /// still those that were factorised. Without factors the result is not a number.
     pub fn solve(&mut self, b: &mut [f64]) {
+        self.solve_by(b, Factors::solve, |pattern, x, b, r, _| residual(pattern, x, b, r));
+    }
+
+    /// Solves Aᵀ x = b in place, like [`Sparse::solve`].
+    pub fn solve_transposed(&mut self, b: &mut [f64]) {
+        self.solve_by(b, Factors::solve_transposed, residual_transposed);
+    }
+
+    #[inline(always)]
+    fn solve_by(
+        &mut self,
+        b: &mut [f64],
+        solve: impl Fn(&Factors, &mut [f64], &mut [f64], &mut Vec<f64>),
+        residual: impl Fn(&Pattern, &[f64], &[f64], &mut [f64], &mut Vec<f64>) -> f64,
+    ) {
         if !self.factors.is_complete(self.size()) {
             b.fill(f64::NAN);
             return;
@@ -156,9 +171,9 @@ impl Sparse {
         y.extend_from_slice(b);
         x.resize(b.len(), 0.0);
         correction.resize(b.len(), 0.0);
-        self.factors.solve(y, x, gathered);
-        if self.current && residual(&self.pattern, x, b, y) > REFINED {
-            self.factors.solve(y, correction, gathered);
+        solve(&self.factors, y, x, gathered);
+        if self.current && residual(&self.pattern, x, b, y, gathered) > REFINED {
+            solve(&self.factors, y, correction, gathered);
             for (x, correction) in x.iter_mut().zip(correction) {
                 *x += *correction;
             }
@@ -209,6 +224,23 @@ fn residual(pattern: &Pattern, x: &[f64], b: &[f64], r: &mut [f64]) -> f64 {
         }
     }
     worst
+}
+
+/// [`residual`] of Aᵀ x = b.
+fn residual_transposed(pattern: &Pattern, x: &[f64], b: &[f64], r: &mut [f64], sizes: &mut Vec<f64>) -> f64 {
+    r.copy_from_slice(b);
+    sizes.clear();
+    sizes.extend(b.iter().map(|b| b.abs()));
+    for (i, &x) in x.iter().enumerate() {
+        let (columns, values) = pattern.row(i);
+        for (&j, &value) in columns.iter().zip(values) {
+            let product = value * x;
+            r[j as usize] -= product;
+            sizes[j as usize] += product.abs();
+        }
+    }
+    let parts = r.iter().zip(sizes.iter()).filter(|(_, size)| **size > 0.0).map(|(r, size)| r.abs() / size);
+    parts.fold(0.0, f64::max)
 }
 
 fn bytes<T>(v: &Vec<T>) -> usize {
