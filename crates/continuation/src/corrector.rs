@@ -132,7 +132,7 @@ pub(crate) fn settle<P: Problem>(problem: &mut P, tolerance: f64) -> Result<(), 
 }
 
 /// The step from one point to another, with the first parameter's.
-pub(crate) fn between<P: Problem>(problem: &mut P, from: &Point, to: &Point) -> Tangent {
+pub fn between<P: Problem>(problem: &mut P, from: &Point, to: &Point) -> Tangent {
     let mut step = vec![0.0; problem.system().unknowns()];
     problem.system().difference(&from.state, &to.state, &mut step);
     Tangent { step, parameter: to.parameters[0] - from.parameters[0] }

@@ -20,7 +20,8 @@ mod reduced;
 mod tests;
 mod walker;
 
+pub use corrector::between;
 pub use critical::{CriticalEnd, CriticalWalker};
-pub use locate::{Crossing, Special};
+pub use locate::{Crossing, Special, sharpen};
 pub use problem::{Parameters, Point, Problem, Refusal, Tangent, slope};
 pub use walker::{Advance, Place, Stall, WalkOptions, WalkWork, Walker};

@@ -1,8 +1,10 @@
 //! Where exactly a path folds or meets another.
 
 use crate::corrector::{Miss, between};
+use crate::multiple::{From, locate_multiple};
 use crate::problem::{Point, Problem, Tangent};
 use crate::reduced::{Surface, Value};
+use crate::walker::Stall;
 use flexura_nonlinear::System;
 
 /// How branches cross at a branch point.
@@ -31,8 +33,19 @@ pub struct Special {
     pub kernel: Vec<Vec<f64>>,
     /// Directions of the other branches.
     pub branches: Vec<Tangent>,
-    /// Part of the step at which it lies, for the order of several.
+    /// Part of the step at which it lies.
     pub part: f64,
+    /// Of a multiple point: from where it is found again.
+    pub(crate) start: Option<Start>,
+}
+
+/// A point of the path before a multiple point.
+#[derive(Clone, Debug)]
+pub(crate) struct Start {
+    pub point: Point,
+    pub tangent: Tangent,
+    pub length: f64,
+    pub tolerance: f64,
 }
 
 /// What is known at the two ends of the step that holds it.
@@ -121,13 +134,27 @@ pub(crate) fn locate<P: Problem>(
     let second_parameter = problem.parameters()[1];
     let guess = bracket.before.parameters[0] + part * whole.parameter;
     problem.set_parameters([guess, second_parameter])?;
-    let mut value = surface.settle(problem)?;
+    let value = surface.settle(problem)?;
     let reach = whole.size(problem.system());
+    match solve(problem, &surface, value, fold, (bracket.before, reach))? {
+        Some(shape) => finish(problem, bracket, &whole, shape, fold),
+        None => Ok(None),
+    }
+}
+
+/// Newton on the surface for the fold or branch point, which must not lie further than a few times `reach` from `home`.
+fn solve<P: Problem>(
+    problem: &mut P,
+    surface: &Surface,
+    mut value: Value,
+    fold: bool,
+    (home, reach): (&Point, f64),
+) -> Result<Option<Shape>, Miss> {
     let mut last = false;
     for _ in 0..MOST {
         let shape = surface.shape(problem, value, !fold)?;
         if last {
-            return finish(problem, bracket, &whole, shape, fold);
+            return Ok(Some(shape));
         }
         let [mu, xi, p] = [shape.value.mu, shape.value.slope[0], shape.value.slope[1]];
         // Newton for (μ, μ_ξ) = 0, or for (μ_ξ, μ_p) = 0.
@@ -151,12 +178,77 @@ pub(crate) fn locate<P: Problem>(
         }
         value = surface.at(problem, &shape.value, [way[0], way[1], 0.0])?;
         last = size < ENOUGH;
-        let gone = between(problem, bracket.before, &value.point).size(problem.system());
-        if gone > 2.5 * reach {
+        if between(problem, home, &value.point).size(problem.system()) > 2.5 * reach {
             return Ok(None);
         }
     }
     Ok(None)
+}
+
+/// How far a point may move when the discretisation changes.
+const NEAR: f64 = 0.05;
+
+/// The same fold or branch point after the problem's discretisation has changed, but not its layout.
+///
+/// # Errors
+/// It is not found again.
+pub fn sharpen<P: Problem>(problem: &mut P, special: &Special) -> Result<Special, Stall> {
+    let found = match &special.start {
+        Some(Start { point, tangent, length, tolerance }) => {
+            let from = From { point, tangent, length: *length, tolerance: *tolerance };
+            locate_multiple(problem, &from, special.kernel.len())
+        }
+        None => again(problem, special),
+    };
+    match found {
+        Ok(Some(found)) => Ok(Special { part: special.part, ..found }),
+        _ => Err(Stall::Short),
+    }
+}
+
+fn again<P: Problem>(problem: &mut P, special: &Special) -> Result<Option<Special>, Miss> {
+    let fold = special.crossing.is_none();
+    special.point.restore(problem)?;
+    let Some(surface) = Surface::choose(problem, false) else { return Ok(None) };
+    special.point.restore(problem)?;
+    let value = surface.settle(problem)?;
+    let Some(shape) = solve(problem, &surface, value, fold, (&special.point, NEAR))? else { return Ok(None) };
+    let value = &shape.value;
+    let system = problem.system();
+    let mut branches = Vec::new();
+    if let Some(before) = special.branches.first() {
+        let Some(directions) = directions(&shape) else { return Ok(None) };
+        let along = |t: &Tangent| t.product(system, &before.step, before.parameter);
+        let mut best = tangents(system, value, &directions)
+            .into_iter()
+            .max_by(|a, b| along(a).abs().total_cmp(&along(b).abs()))
+            .unwrap_or_default();
+        if along(&best) < 0.0 {
+            best.scale(-1.0);
+        }
+        branches.push(best);
+    }
+    Ok(Some(Special {
+        point: value.point.clone(),
+        kernel: vec![value.along[0].clone()],
+        branches,
+        ..special.clone()
+    }))
+}
+
+/// Directions (ξ, p) as directions of the path.
+fn tangents<S: flexura_nonlinear::Liftable>(
+    system: &S,
+    value: &Value,
+    directions: &[[f64; 2]; 2],
+) -> Vec<Tangent> {
+    directions
+        .iter()
+        .map(|[xi, p]| {
+            let step = value.along[0].iter().zip(&value.along[1]).map(|(x, v)| xi * x + p * v).collect();
+            Tangent { step, parameter: *p }.normalised(system)
+        })
+        .collect()
 }
 
 /// Is it what was looked for, and how do branches cross there?
@@ -178,7 +270,7 @@ fn finish<P: Problem>(
     let kernel = vec![value.along[0].clone()];
     if fold {
         let point = value.point.clone();
-        return Ok(Some(Special { crossing: None, point, kernel, branches: Vec::new(), part }));
+        return Ok(Some(Special { crossing: None, point, kernel, branches: Vec::new(), part, start: None }));
     }
     // The step's change of μ if it left the path by its own length.
     let scale = (shape.xi_p.abs() + shape.xi_xi.abs()).max(1e-300) * square;
@@ -186,13 +278,7 @@ fn finish<P: Problem>(
         return Ok(None);
     }
     let Some(directions) = directions(&shape) else { return Ok(None) };
-    let mut tangents: Vec<Tangent> = directions
-        .iter()
-        .map(|[xi, p]| {
-            let step = value.along[0].iter().zip(&value.along[1]).map(|(x, v)| xi * x + p * v).collect();
-            Tangent { step, parameter: *p }.normalised(system)
-        })
-        .collect();
+    let mut tangents = tangents(system, value, &directions);
     // The present branch's own direction is the one nearest to the step.
     let nearness = |t: &Tangent| t.product(system, &bracket.tangent.step, bracket.tangent.parameter).abs();
     let own = if nearness(&tangents[0]) >= nearness(&tangents[1]) { 0 } else { 1 };
@@ -222,6 +308,7 @@ fn finish<P: Problem>(
         kernel,
         branches: tangents,
         part,
+        start: None,
     }))
 }
 

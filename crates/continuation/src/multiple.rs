@@ -4,7 +4,7 @@
 //! loses k ranks. It is found at points around the place, never at it, and its zero by a polynomial through them.
 
 use crate::corrector::{Limits, Miss, between, correct};
-use crate::locate::{Crossing, Special};
+use crate::locate::{Crossing, Special, Start};
 use crate::problem::{Point, Problem, Tangent};
 use flexura_nonlinear::{Liftable, System};
 
@@ -74,7 +74,14 @@ pub(crate) fn locate_multiple<P: Problem>(
     problem.set_parameters([parameter, points[0].parameters[1]])?;
     let point = Point::here(problem);
     let kernel = bases.map(|(_, kernel)| kernel).unwrap_or_default();
-    Ok(Some(Special { crossing: Some(Crossing::Multiple(count)), point, kernel, branches: Vec::new(), part }))
+    let start = Start {
+        point: from.point.clone(),
+        tangent: from.tangent.clone(),
+        length: from.length,
+        tolerance: from.tolerance,
+    };
+    let crossing = Some(Crossing::Multiple(count));
+    Ok(Some(Special { crossing, point, kernel, branches: Vec::new(), part, start: Some(start) }))
 }
 
 /// Rows B and directions C: C spans what the tangent's inverse makes largest.

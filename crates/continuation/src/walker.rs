@@ -112,8 +112,12 @@ impl Walker {
     /// Starts at the present solution, towards larger (`1.0`) or smaller (`-1.0`) parameters.
     ///
     /// # Errors
-    /// The tangent cannot be had there.
+    /// The tangent cannot be had there, or no solution is near.
     pub fn start<P: Problem>(problem: &mut P, options: WalkOptions, direction: f64) -> Result<Self, Refusal> {
+        settle(problem, options.tolerance).map_err(|miss| match miss {
+            Miss::Refused(refusal) => refusal,
+            _ => Refusal::Broken(Breakdown::Singular),
+        })?;
         problem.system().linearise()?;
         let (slope, mut tangent) = direction_here(problem)?;
         if tangent.parameter * direction < 0.0 {
@@ -205,7 +209,8 @@ impl Walker {
         }
         self.is_tangent_here = false;
         self.here.point.restore(problem).map_err(stall)?;
-        let limits = Limits { tolerance: self.options.tolerance, farthest: 1.0, reach: self.options.largest_change };
+        let limits =
+            Limits { tolerance: self.options.tolerance, farthest: 1.0, reach: self.options.largest_change };
         let polished = correct(problem, &self.here.tangent, None, &limits);
         polished.map_err(|_| Stall::Short)?;
         problem.system().linearise().map_err(|b| stall(b.into()))?;

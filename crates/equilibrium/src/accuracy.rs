@@ -232,6 +232,12 @@ impl Equilibrium {
         outcome
     }
 
+    /// Makes all integration steps half as long, which improves the accuracy by about 2⁸.
+    pub fn halve_steps(&mut self) {
+        self.multiply_steps(2.0);
+        self.accuracy /= 256.0;
+    }
+
     /// The accuracy that the mesh is made for.
     pub fn mesh_accuracy(&self) -> f64 {
         self.accuracy

@@ -8,7 +8,7 @@ use crate::mesh::{Level, SpanMesh};
 use crate::shooting::{Plain, SegmentEnd};
 use flexura_mechanics::joint::Configuration;
 use flexura_model::{BeamPoint, JointKind, LoadId, LoadTarget, Model};
-use flexura_nonlinear::{BLOCK, Breakdown, Chain, Lift, Liftable, Matrix, System};
+use flexura_nonlinear::{BLOCK, Breakdown, Chain, Lift, Liftable, Matrix, Symmetric, System};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, exp, log};
 
 /// A model made ready to be solved, again and again, from rest or from where it stands.
@@ -35,6 +35,8 @@ pub struct Equilibrium {
     /// An entry that is lifted in tangents, and by how much it was in the last one.
     lift: Option<Lift>,
     lifted_by: f64,
+    /// The second variation.
+    pub(crate) second: Symmetric,
     /// An earlier tangent, factorised.
     kept: (Matrix, Vec<Chain>),
     pub(crate) gaps: Vec<Vec<[f64; BLOCK]>>,
@@ -108,6 +110,7 @@ impl Equilibrium {
             factorised: false,
             lift: None,
             lifted_by: 0.0,
+            second: Symmetric::default(),
             kept: (Matrix::default(), Vec::new()),
             gaps: Vec::new(),
             r: Vec::new(),
@@ -381,7 +384,11 @@ impl System for Equilibrium {
         self.lifted_by = 0.0;
         if let Some(Lift { row, column }) = self.lift {
             let mut largest = 0.0_f64;
-            self.tangent.for_each(|i, _, value| if i == row { largest = largest.max(value.abs()) });
+            self.tangent.for_each(|i, _, value| {
+                if i == row {
+                    largest = largest.max(value.abs())
+                }
+            });
             self.lifted_by = largest;
             self.tangent.add(row, column, largest);
         }
@@ -549,7 +556,9 @@ impl Liftable for Equilibrium {
         // What stands in the rows of an inner state comes out of the elimination of those before it.
         let inner: Vec<usize> =
             self.layout.spans.iter().filter_map(|s| s.inner.last().map(|i| i.unknown)).collect();
-        (0..self.layout.interface).filter(|row| !inner.iter().any(|u| (*u..u + BLOCK).contains(row))).collect()
+        (0..self.layout.interface)
+            .filter(|row| !inner.iter().any(|u| (*u..u + BLOCK).contains(row)))
+            .collect()
     }
 
     fn lift_columns(&self) -> usize {

@@ -3,8 +3,8 @@
 use super::mesh::Cut;
 use crate::assembly::Sink;
 use crate::held::{Held, HoldRef};
-use crate::lower::Hold;
 use crate::layout::CoordinateSlot;
+use crate::lower::Hold;
 use crate::shooting::{SegmentEnd, wrench_of};
 use crate::system::Equilibrium;
 use flexura_nonlinear::{BlockPlace, Breakdown, Matrix};
@@ -87,25 +87,23 @@ impl Equilibrium {
         for ((span, cut), own) in cuts.iter().enumerate().zip(&numbers) {
             self.add_span(span, cut, own, &mut sink);
         }
-        let mut symmetric = nalgebra::DMatrix::<f64>::zeros(size, size);
-        let mut finite = true;
+        let mut symmetric = std::mem::take(&mut self.second);
+        symmetric.arrange(size, &blocks);
+        symmetric.reset();
         plain.for_each(|i, j, value| {
             let (row, column) = (rows[i], columns[j]);
             if let (Some(i), Some(j)) = (row.at, column.at) {
                 // Rows are minus the energy's derivatives, but for those that are marked.
-                let value = if row.flipped { 0.5 * value } else { -0.5 * value };
-                finite &= value.is_finite();
-                symmetric[(i, j)] += value;
-                symmetric[(j, i)] += value;
+                symmetric.add(i, j, if row.flipped { value } else { -value });
             }
         });
-        if !finite {
-            return Err(Breakdown::NotFinite);
+        let inertia = symmetric.factorise();
+        self.second = symmetric;
+        let inertia = inertia?;
+        if inertia.zero > 0 {
+            return Err(Breakdown::Singular);
         }
-        let _ = blocks;
-        let eigenvalues = symmetric.symmetric_eigenvalues();
-        let negative = eigenvalues.iter().filter(|v| **v < 0.0).count();
-        negative.checked_sub(multipliers).ok_or(Breakdown::Singular)
+        inertia.negative.checked_sub(multipliers).ok_or(Breakdown::Singular)
     }
 
     /// Where rows and columns of the plain tangents stand in the symmetric matrix, its size, and how many of its unknowns are
@@ -240,16 +238,34 @@ impl Equilibrium {
             match k.checked_sub(1).and_then(|k| own.pose(k)) {
                 Some(pose) => at_start(&mut |unknown, change| add(sink, pose, unknown, &-change)),
                 None => {
-                    let derivative = |f: &mut dyn FnMut(usize, Wrench)| at_start(&mut |unknown, change| f(unknown, wrench(&change)));
+                    let derivative = |f: &mut dyn FnMut(usize, Wrench)| {
+                        at_start(&mut |unknown, change| f(unknown, wrench(&change)))
+                    };
                     let on_child = -wrench_of(&cut.start);
-                    self.hold_rows(&start, &slots.start, &description.start.coordinates, &on_child, &derivative, sink);
+                    self.hold_rows(
+                        &start,
+                        &slots.start,
+                        &description.start.coordinates,
+                        &on_child,
+                        &derivative,
+                        sink,
+                    );
                 }
             }
             match (own.pose(k), &end, &description.end) {
                 (Some(pose), _, _) => at_end(&mut |unknown, change| add(sink, pose, unknown, &-change)),
                 (None, Some(held), Some(hold)) => {
-                    let derivative = |f: &mut dyn FnMut(usize, Wrench)| at_end(&mut |unknown, change| f(unknown, wrench(&change)));
-                    self.hold_rows(held, &slots.end, &hold.coordinates, &wrench_of(&cut.end), &derivative, sink);
+                    let derivative = |f: &mut dyn FnMut(usize, Wrench)| {
+                        at_end(&mut |unknown, change| f(unknown, wrench(&change)))
+                    };
+                    self.hold_rows(
+                        held,
+                        &slots.end,
+                        &hold.coordinates,
+                        &wrench_of(&cut.end),
+                        &derivative,
+                        sink,
+                    );
                 }
                 _ => {}
             }

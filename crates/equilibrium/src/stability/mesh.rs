@@ -16,8 +16,8 @@ use flexura_nonlinear::Breakdown;
 use flexura_spatial::Vector3;
 
 /// What the left side above may be: aimed at, and at most.
-const AIM: f64 = 0.35;
-const MOST: f64 = 0.8;
+const AIM: f64 = 0.7;
+const MOST: f64 = 0.95;
 /// Accuracy of the integration along stretches.
 const ACCURACY: f64 = 1e-9;
 /// Most stretches of one span.
@@ -46,7 +46,11 @@ impl Equilibrium {
         let description = &self.lowered.spans[span];
         let law = &self.lowered.beams[description.beam];
         let mesh = &self.meshes[span];
-        let pulls: Vec<_> = self.pulls(span).into_iter().map(|pull| crate::shooting::Pull { unknown: false, ..pull }).collect();
+        let pulls: Vec<_> = self
+            .pulls(span)
+            .into_iter()
+            .map(|pull| crate::shooting::Pull { unknown: false, ..pull })
+            .collect();
         let level = self.levels[span];
         let start = self.head_state(span);
         let mut forms = Vec::new();
@@ -63,14 +67,22 @@ impl Equilibrium {
                 // From the condition, as a quadratic in the length.
                 let (a, b) = (law.soft() * level.force, law.soft() * (level.moment + level.tendons));
                 let aim = 2.0 * AIM / (b + (b * b + 4.0 * a * AIM).sqrt()).max(1e-300);
-                let count = (whole / (aim * std::f64::consts::FRAC_PI_2)).ceil().clamp(1.0, MOST_STRETCHES as f64);
+                let count =
+                    (whole / (aim * std::f64::consts::FRAC_PI_2)).ceil().clamp(1.0, MOST_STRETCHES as f64);
                 let mut width = (last - first) / count;
                 let mut s = first;
                 while s < last {
                     let left = last - s;
                     // Equal parts of what is left, so that no sliver remains.
-                    let next = if left <= 1.000_001 * width { last } else { s + left / (left / width).ceil() };
-                    let part = Stretch::new(law, description, [s, next], level.steps(law, description, [s, next], ACCURACY), Vec::new());
+                    let next =
+                        if left <= 1.000_001 * width { last } else { s + left / (left / width).ceil() };
+                    let part = Stretch::new(
+                        law,
+                        description,
+                        [s, next],
+                        level.steps(law, description, [s, next], ACCURACY),
+                        Vec::new(),
+                    );
                     let form = Form::new(&part, self.load, &pulls, &here, end).filter(|form| {
                         let met = Level {
                             force: norm(&here.force).max(norm(&form.end.force)),

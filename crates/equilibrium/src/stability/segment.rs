@@ -43,7 +43,13 @@ fn half_hat(v: &[f64; 3]) -> Matrix3<f64> {
 
 impl Form {
     /// Carries the stretch from `start`. None where S has no inverse, which a short stretch never shows.
-    pub fn new(stretch: &Stretch, load: f64, pulls: &[Pull], start: &Plain, end: &mut SegmentEnd) -> Option<Self> {
+    pub fn new(
+        stretch: &Stretch,
+        load: f64,
+        pulls: &[Pull],
+        start: &Plain,
+        end: &mut SegmentEnd,
+    ) -> Option<Self> {
         let loads = &stretch.piece.loads;
         let directed = loads.iter().any(|l| l.dead_force != [0.0; 3] || l.dead_moment != [0.0; 3]);
         let acting = Acting { jumps: &[], load, pulls };

@@ -11,7 +11,10 @@ impl Equilibrium {
     /// Why stability is not decided for this mechanism under its loads; None where it can be.
     pub(super) fn undecided(&self) -> Option<String> {
         if let Some(tubes) = self.model.tubes.first() {
-            return Some(format!("tubes.{}: the stability of concentric tubes is not decided by this version", tubes.name));
+            return Some(format!(
+                "tubes.{}: the stability of concentric tubes is not decided by this version",
+                tubes.name
+            ));
         }
         if let Some(span) = self.lowered.spans.iter().find(|span| span.undivided) {
             let beam = &self.model.beams[span.beam].name;
@@ -22,10 +25,14 @@ impl Equilibrium {
         for (i, law) in self.lowered.beams.iter().enumerate() {
             let name = &self.model.beams[i].name;
             if law.follows() {
-                return Some(format!("beam.{name}: its distributed load follows the section and has no energy"));
+                return Some(format!(
+                    "beam.{name}: its distributed load follows the section and has no energy"
+                ));
             }
             if law.turns() {
-                return Some(format!("beam.{name}: its distributed moment keeps its direction while sections turn, and has no energy"));
+                return Some(format!(
+                    "beam.{name}: its distributed moment keeps its direction while sections turn, and has no energy"
+                ));
             }
         }
         for (node, description) in self.lowered.nodes.iter().enumerate() {
@@ -99,7 +106,9 @@ fn free_turnings(coordinates: &crate::coordinates::Coordinates) -> usize {
 /// Why a load on something that turns about so many axes has no energy.
 fn verdict(dead: &Wrench, follower: &Wrench, turns: usize) -> Option<&'static str> {
     if turns > 1 && dead.moment != V::zeros() {
-        return Some("a moment that keeps its direction, on something that turns about more than one axis, has no energy");
+        return Some(
+            "a moment that keeps its direction, on something that turns about more than one axis, has no energy",
+        );
     }
     if turns > 0 && follower.force != V::zeros() {
         return Some("a force that follows what it acts on has no energy");

@@ -69,10 +69,20 @@ pub fn trace(
     let mut prepared = Prepared::new(&start)?;
     prepared.problem.watch(reader.places());
     let outcome = prepared.solve(options.tolerance, &mut |_| {});
-    let mut follower =
-        Follower { study, events: study.events.len(), reader, tolerance: options.tolerance, progress, branch: 0 };
-    let mut collection =
-        Collection { branches: Vec::new(), known: Vec::new(), warnings: Vec::new(), work: TraceWork::default() };
+    let mut follower = Follower {
+        study,
+        events: study.events.len(),
+        reader,
+        tolerance: options.tolerance,
+        progress,
+        branch: 0,
+    };
+    let mut collection = Collection {
+        branches: Vec::new(),
+        known: Vec::new(),
+        warnings: Vec::new(),
+        work: TraceWork::default(),
+    };
     let mut trace = Trace {
         parameter: study.parameter,
         range: study.range,
@@ -149,10 +159,9 @@ pub(crate) fn from_here(
         }
         traced.go_back(&snapshot);
         let walker = Walker::start(traced, options, direction);
-        let walker = walker.ok().and_then(|mut walker| walker.polish(traced, None).ok().map(|()| walker));
         *leg = Some(match walker {
-            Some(mut walker) => follower.follow(traced, &mut walker, Some(PointKind::End)),
-            None => Leg {
+            Ok(mut walker) => follower.follow(traced, &mut walker, Some(PointKind::End)),
+            Err(_) => Leg {
                 points: Vec::new(),
                 met: Vec::new(),
                 end: BranchEnd::Stalled("the tangent has no inverse at its start".to_string()),
@@ -239,7 +248,8 @@ fn same_point(branches: &[Branch], a: (usize, usize), b: (usize, usize)) -> bool
         return false;
     }
     let (p, q) = (&branches[a.0].points[a.1], &branches[b.0].points[b.1]);
-    let size = branches[a.0].points.iter().map(|point| (point.parameter - p.parameter).abs()).fold(0.0, f64::max);
+    let size =
+        branches[a.0].points.iter().map(|point| (point.parameter - p.parameter).abs()).fold(0.0, f64::max);
     (p.parameter - q.parameter).abs() <= SAME * size.max(f64::MIN_POSITIVE)
         && match (&p.solution, &q.solution) {
             (Some(p), Some(q)) => crate::search::same(p, q),
@@ -284,7 +294,13 @@ fn switch(traced: &mut Traced<'_>, follower: &mut Follower<'_>, most: usize, col
             let before = collection.known.len();
             let middle = collection.branches[branch].points[at].clone();
             if let (Some(plus), Some(minus)) = (legs.pop(), legs.pop()) {
-                add(BranchOrigin::Switched { branch, point: at }, Some(minus), plus, Some(middle), collection);
+                add(
+                    BranchOrigin::Switched { branch, point: at },
+                    Some(minus),
+                    plus,
+                    Some(middle),
+                    collection,
+                );
             }
             queue.extend(before..collection.known.len());
         }
@@ -297,12 +313,18 @@ fn verdict(trace: &Trace) -> (Status, Option<String>) {
         for end in &branch.ends {
             match end {
                 BranchEnd::Stalled(why) => {
-                    return (Status::Stalled, Some(format!("branch {} cannot be followed further: {why}", i + 1)));
+                    return (
+                        Status::Stalled,
+                        Some(format!("branch {} cannot be followed further: {why}", i + 1)),
+                    );
                 }
                 BranchEnd::PointLimit => {
                     return (
                         Status::IterationLimit,
-                        Some(format!("branch {} has as many points as are allowed; raise most_points", i + 1)),
+                        Some(format!(
+                            "branch {} has as many points as are allowed; raise most_points",
+                            i + 1
+                        )),
                     );
                 }
                 _ => {}

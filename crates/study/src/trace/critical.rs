@@ -48,9 +48,10 @@ pub(crate) fn follow(
     let point = &collection.branches[known.branch].points[known.at];
     let kind = point.kind.clone();
     if !known.met.simple {
-        collection
-            .warnings
-            .push("a point at which several directions give way at once cannot be followed in a second parameter".to_string());
+        collection.warnings.push(
+            "a point at which several directions give way at once cannot be followed in a second parameter"
+                .to_string(),
+        );
         return None;
     }
     let (met, fold) = (known.met.clone(), known.met.fold);

@@ -1,9 +1,9 @@
 //! One branch followed one way: points, what is special on it, and why it ends.
 
+use super::TraceProgress;
 use super::problem::{Snapshot, Traced};
 use super::record::{Reader, Reading, crossing, regular};
-use super::TraceProgress;
-use flexura_continuation::{Advance, Place, Point, Special, Stall, Tangent, Walker};
+use flexura_continuation::{Advance, Place, Point, Special, Stall, Tangent, Walker, between, sharpen};
 use flexura_model::{Stop, TraceStudy};
 use flexura_nonlinear::System;
 use flexura_solution::{BranchEnd, PointKind, TracePoint};
@@ -52,6 +52,9 @@ pub(crate) const FINER: f64 = 0.2;
 /// Most refinements at one point.
 const REFINEMENTS: usize = 6;
 
+/// By how much half as long steps reduce the error, at least.
+const GAIN: f64 = 32.0;
+
 /// Something on the way between two points.
 enum Passed {
     Special(Special),
@@ -67,7 +70,13 @@ impl Follower<'_> {
         leg
     }
 
-    fn walk(&mut self, traced: &mut Traced<'_>, walker: &mut Walker, first: Option<PointKind>, leg: &mut Leg) -> BranchEnd {
+    fn walk(
+        &mut self,
+        traced: &mut Traced<'_>,
+        walker: &mut Walker,
+        first: Option<PointKind>,
+        leg: &mut Leg,
+    ) -> BranchEnd {
         let mut error = match self.check_mesh(traced, walker) {
             Ok(error) => error,
             Err(stall) => return stalled(&stall),
@@ -75,7 +84,8 @@ impl Follower<'_> {
         let mut before = self.read(traced, walker);
         let mut start = walker.here().clone();
         if let Some(kind) = first {
-            let mut point = regular(traced.axes[0].value(start.point.parameters[0]), &start, before.clone(), error);
+            let mut point =
+                regular(traced.axes[0].value(start.point.parameters[0]), &start, before.clone(), error);
             if kind == PointKind::End {
                 self.keep(traced, walker, &mut point);
             }
@@ -300,21 +310,37 @@ impl Follower<'_> {
     }
 
     /// Reports what was passed; true if the leg stops there.
-    fn report(&self, traced: &mut Traced<'_>, walker: &mut Walker, passed: Passed, error: f64, leg: &mut Leg) -> bool {
+    fn report(
+        &self,
+        traced: &mut Traced<'_>,
+        walker: &mut Walker,
+        mut passed: Passed,
+        mut error: f64,
+        leg: &mut Leg,
+    ) -> bool {
         walker.disturbed();
+        let part = match &passed {
+            Passed::Special(special) => walker.part_of(traced, &special.point),
+            Passed::Watched(_, place) => walker.part_of(traced, &place.point),
+        };
+        let mesh = traced.problem().mesh_accuracy();
+        if let Passed::Special(special) = &mut passed {
+            error = self.sharpened(traced, special);
+        }
         let (at, kind, index) = match &passed {
             Passed::Special(special) => {
                 let kind = special.crossing.map_or(PointKind::Fold, |met| PointKind::Branch(crossing(met)));
                 (&special.point, kind, None)
             }
-            Passed::Watched(i, place) if *i < self.events => (&place.point, PointKind::Event(*i), place.index),
+            Passed::Watched(i, place) if *i < self.events => {
+                (&place.point, PointKind::Event(*i), place.index)
+            }
             Passed::Watched(_, place) => (&place.point, PointKind::End, place.index),
         };
         if at.restore(traced).is_err() {
             return false;
         }
         let reading = self.reader.read(traced);
-        let part = walker.part_of(traced, at);
         let arc = walker.arc_at(part);
         let mut point = TracePoint {
             parameter: traced.axes[0].value(at.parameters[0]),
@@ -333,7 +359,8 @@ impl Follower<'_> {
                 special.kernel.iter().map(|step| self.reader.direction(traced.problem(), step)).collect();
             leg.met.push(Met {
                 at: leg.points.len(),
-                snapshot: (self.study.branches > 0 || self.study.critical.is_some()).then(|| traced.snapshot()),
+                snapshot: (self.study.branches > 0 || self.study.critical.is_some())
+                    .then(|| traced.snapshot()),
                 point: special.point.clone(),
                 branches: special.branches.clone(),
                 fold: special.crossing.is_none(),
@@ -341,7 +368,27 @@ impl Follower<'_> {
             });
         }
         leg.points.push(point);
+        if traced.problem().mesh_accuracy() != mesh {
+            traced.refine(mesh);
+        }
         self.stops(&passed, leg)
+    }
+
+    /// Finds a critical point again on finer meshes, until it stands still; the error that is left. Where a tangent loses its
+    /// rank depends on the mesh even where the state does not.
+    fn sharpened(&self, traced: &mut Traced<'_>, special: &mut Special) -> f64 {
+        let mut error = f64::INFINITY;
+        for _ in 0..REFINEMENTS {
+            traced.finer();
+            let Ok(found) = sharpen(traced, special) else { return error };
+            let moved = between(traced, &special.point, &found.point).size(traced.problem());
+            *special = found;
+            error = moved / GAIN + 1e-13;
+            if error <= self.tolerance {
+                break;
+            }
+        }
+        error
     }
 
     /// Is the last point of the leg one at which it is to stop?
@@ -351,7 +398,8 @@ impl Follower<'_> {
         {
             return true;
         }
-        let count = |wanted: &dyn Fn(&PointKind) -> bool| leg.points.iter().filter(|p| wanted(&p.kind)).count();
+        let count =
+            |wanted: &dyn Fn(&PointKind) -> bool| leg.points.iter().filter(|p| wanted(&p.kind)).count();
         let last = leg.points.last().map(|p| &p.kind);
         self.study.stops.iter().any(|stop| match stop {
             Stop::Value(_) => false,

@@ -18,7 +18,8 @@ pub(crate) struct Axis {
 
 impl Axis {
     pub fn value(&self, scaled: f64) -> f64 {
-        self.origin + self.span * scaled
+        // Never a negative zero.
+        self.origin + self.span * scaled + 0.0
     }
 
     pub fn scaled(&self, value: f64) -> f64 {
@@ -54,7 +55,13 @@ pub(crate) struct Snapshot {
 
 impl<'a> Traced<'a> {
     /// `prepared` stands at the values that the axes have at (`parameters`).
-    pub fn new(prepared: Prepared, family: &'a mut dyn Family, axes: [Axis; 2], parameters: Parameters, both: bool) -> Self {
+    pub fn new(
+        prepared: Prepared,
+        family: &'a mut dyn Family,
+        axes: [Axis; 2],
+        parameters: Parameters,
+        both: bool,
+    ) -> Self {
         Self { prepared, family, axes, parameters, laws: Vec::new(), undecided: None, both }
     }
 
@@ -88,7 +95,13 @@ impl<'a> Traced<'a> {
     }
 
     /// Stands where another prepared problem stands, in other axes; returns the one before.
-    pub fn exchange(&mut self, mut prepared: Prepared, axes: [Axis; 2], parameters: Parameters, both: bool) -> Prepared {
+    pub fn exchange(
+        &mut self,
+        mut prepared: Prepared,
+        axes: [Axis; 2],
+        parameters: Parameters,
+        both: bool,
+    ) -> Prepared {
         let counts = self.prepared.problem.counts();
         prepared.problem.set_counts(counts);
         self.laws.clear();
@@ -134,7 +147,13 @@ impl<'a> Traced<'a> {
         Some(Tangent { step, parameter: tangent.parameter })
     }
 
-    /// Makes the mesh finer.
+    /// Makes the steps half as long.
+    pub fn finer(&mut self) {
+        self.laws.clear();
+        self.prepared.problem.halve_steps();
+    }
+
+    /// Makes a mesh of another accuracy.
     pub fn refine(&mut self, accuracy: f64) {
         self.laws.clear();
         self.prepared.problem.set_mesh_accuracy(accuracy);

@@ -36,14 +36,24 @@ pub(crate) fn find(
 }
 
 /// Is a state at one end of the range on a branch that is known?
-fn is_known(collection: &Collection, value: f64, solution: &flexura_solution::Solution) -> bool {
+fn is_known(
+    collection: &Collection,
+    (value, span): (f64, f64),
+    solution: &flexura_solution::Solution,
+) -> bool {
     collection.branches.iter().flat_map(|branch| &branch.points).any(|point| {
-        (point.parameter - value).abs() <= 1e-9 * value.abs().max(f64::MIN_POSITIVE)
+        (point.parameter - value).abs() <= 1e-9 * span.abs()
             && point.solution.as_ref().is_some_and(|other| same(other, solution))
     })
 }
 
-fn guesses(traced: &mut Traced<'_>, follower: &mut Follower<'_>, options: &Options, end: f64, collection: &mut Collection) {
+fn guesses(
+    traced: &mut Traced<'_>,
+    follower: &mut Follower<'_>,
+    options: &Options,
+    end: f64,
+    collection: &mut Collection,
+) {
     let parameters = [end, traced.parameters()[1]];
     let value = traced.axes[0].value(end);
     let Ok(model) = traced.model_at(parameters) else { return };
@@ -57,7 +67,7 @@ fn guesses(traced: &mut Traced<'_>, follower: &mut Follower<'_>, options: &Optio
             continue;
         }
         let here = prepared.problem.solution(follower.reader.samples);
-        if is_known(collection, value, &here) {
+        if is_known(collection, (value, traced.axes[0].span), &here) {
             continue;
         }
         traced.take(prepared, parameters);
@@ -109,7 +119,7 @@ fn imperfection(
         return Err(finished.reason.unwrap_or_default());
     }
     let here = prepared.problem.solution(follower.reader.samples);
-    if is_known(collection, main.value(1.0), &here) {
+    if is_known(collection, (main.value(1.0), main.span), &here) {
         return Err("it ends on a branch that is known".to_string());
     }
     traced.take(prepared, [1.0, other]);
@@ -121,7 +131,8 @@ fn imperfection(
 fn lead(traced: &mut Traced<'_>, follower: &Follower<'_>, to: f64) -> Result<(), String> {
     let options = WalkOptions { tolerance: 1e-9, ..super::branches::walk_options(follower) };
     let from = traced.parameters()[0];
-    let mut walker = Walker::start(traced, options, to - from).map_err(|_| "its path cannot be started".to_string())?;
+    let mut walker =
+        Walker::start(traced, options, to - from).map_err(|_| "its path cannot be started".to_string())?;
     for _ in 0..STEPS {
         if let Advance::Stalled(_) = walker.advance(traced) {
             let value = traced.axes[0].value(walker.here().point.parameters[0]);

@@ -1,6 +1,6 @@
+use flexura::model::*;
 use flexura::modelfile::Document;
 use flexura::solution::*;
-use flexura::model::*;
 use flexura::{FileFamily, Options};
 const STRIP: &str = r#"
 format = 1
@@ -45,13 +45,18 @@ fn show(t: &Trace) {
         println!("branch {i} {:?} {} points, ends {:?}", b.origin, b.points.len(), b.ends);
         for p in &b.points {
             if p.kind != PointKind::Regular {
-                println!("  {:?} p {:.12} out {:?} idx {:?} err {:.1e}", p.kind, p.parameter, p.outputs, p.unstable_directions, p.error_estimate);
+                println!(
+                    "  {:?} p {:.12} out {:?} idx {:?} err {:.1e}",
+                    p.kind, p.parameter, p.outputs, p.unstable_directions, p.error_estimate
+                );
             }
         }
     }
     if let Some(c) = &t.critical {
         println!("critical {:?} ends {:?}", c.kind, c.ends);
-        for (q, p) in &c.points { println!("   {q} {:.12} {:?}", p.parameter, p.outputs); }
+        for (q, p) in &c.points {
+            println!("   {q} {:.12} {:?}", p.parameter, p.outputs);
+        }
     }
 }
 fn go(text: &str, over: &[(&str, &str)], study: TraceStudy, name: &str) -> Trace {
@@ -60,16 +65,51 @@ fn go(text: &str, over: &[(&str, &str)], study: TraceStudy, name: &str) -> Trace
     let model = doc.model(&over).map_err(|e| e.render(false)).unwrap();
     let mut family = FileFamily::new(&doc, &over, &model);
     let now = std::time::Instant::now();
-    let t = flexura::trace(&model, &mut family, &study, &Options { tolerance: 1e-9, ..Options::default() }, &mut |_| {}).map_err(|e| e.message).unwrap();
+    let t = flexura::trace(
+        &model,
+        &mut family,
+        &study,
+        &Options { tolerance: 1e-9, ..Options::default() },
+        &mut |_| {},
+    )
+    .map_err(|e| e.message)
+    .unwrap();
     println!("--- {name} in {:?}", now.elapsed());
     show(&t);
     t
 }
-#[test]
-fn strip() {
-    go(STRIP, &[], TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 5, ..Default::default() }, "plain");
-    go(STRIP, &[("weight", "0.8")], TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 5, imperfection: Some((2, 100.0_f64.to_radians())), ..Default::default() }, "weight");
-    go(STRIP, &[("weight", "0.8"), ("slope", "90 deg")], TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 0, ..Default::default() }, "slope 90");
-    go(STRIP, &[("weight", "0.8")], TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 5, guesses: 5, ..Default::default() }, "guesses");
-    go(STRIP, &[("weight", "0.8")], TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 5, imperfection: Some((2, 100.0_f64.to_radians())), critical: Some(CriticalStudy { parameter: 1, range: [0.1, 1.6], number: 1}),..Default::default() }, "critical");
+
+fn main() {
+    go(
+        STRIP,
+        &[],
+        TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 5, ..Default::default() },
+        "plain",
+    );
+    go(
+        STRIP,
+        &[("weight", "0.8")],
+        TraceStudy {
+            parameter: 0,
+            range: [0.0, 25.0],
+            branches: 5,
+            imperfection: Some((2, 100.0_f64.to_radians())),
+            ..Default::default()
+        },
+        "weight",
+    );
+    go(
+        STRIP,
+        &[("weight", "0.8"), ("slope", "90 deg")],
+        TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 0, ..Default::default() },
+        "slope 90",
+    );
+    for _ in 0..3 {
+        go(
+            STRIP,
+            &[],
+            TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 5, ..Default::default() },
+            "plain",
+        );
+    }
 }
