@@ -106,8 +106,8 @@ impl Tangent {
 /// Relative step of the one-sided difference that gives the derivative along a parameter. It only points the way.
 const DIFFERENCE: f64 = 1e-5;
 
-/// `-J⁻¹ ∂r/∂p` along parameter `which`, with the last tangent, at the present state. The system's residual is that of a neighbouring
-/// parameter afterwards.
+/// `-J⁻¹ ∂r/∂p` along parameter `which`, with the last tangent, at the present state, whose residual must be the system's last one.
+/// Afterwards that is the one of a neighbouring parameter.
 ///
 /// # Errors
 /// As [`Problem::set_parameters`].
@@ -116,7 +116,6 @@ pub fn slope<P: Problem>(problem: &mut P, which: usize) -> Result<Vec<f64>, Refu
     let n = problem.system().unknowns();
     let point = Point::here(problem);
     let (mut before, mut after) = (vec![0.0; n], vec![0.0; n]);
-    problem.system().residual()?;
     problem.system().newton_step(&mut before);
     // Where the parameter can go one way only, the other side serves.
     for h in [DIFFERENCE, -DIFFERENCE] {

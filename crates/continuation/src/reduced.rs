@@ -148,6 +148,7 @@ impl Surface {
             point: Point::here(problem),
         };
         for which in 0..if self.both { 2 } else { 1 } {
+            problem.system().residual()?;
             let mut v = slope(problem, which)?;
             let top = v[column];
             value.slope[1 + which] = top / scale;

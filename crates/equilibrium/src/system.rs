@@ -202,6 +202,19 @@ impl Equilibrium {
         self.sum_known_forces();
     }
 
+    /// Changes what drives or loads a joint's coordinate; whether it is driven stays as it is. A driven coordinate moves there
+    /// when the load fraction is set next.
+    pub fn set_coordinate_law(&mut self, joint: usize, coordinate: usize, law: flexura_model::CoordinateLaw) {
+        self.model.joints[joint].law.coordinates[coordinate] = law;
+        let scale = self.lowered.scale;
+        self.lowered.joints[joint].coordinates.set_law(coordinate, &law, &scale);
+    }
+
+    /// The values that parameters have now; nothing else changes.
+    pub fn set_parameter_values(&mut self, values: &[f64]) {
+        self.model.parameters.iter_mut().zip(values).for_each(|(parameter, value)| parameter.value = *value);
+    }
+
     /// What counts as a change of 1: L for positions, 1 for turnings, EI/L² and EI/L for wrenches. For the
     /// final accuracy (`relative`) a beam's wrenches count against the largest that it carries, if that is more:
     /// beyond EI/L² their digits are limited by round-off, not by the method.

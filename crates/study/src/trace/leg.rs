@@ -49,6 +49,9 @@ const EDGE: f64 = 1e-9;
 const TRIES: usize = 60;
 /// Accuracy of a mesh beside the tolerance, to begin with.
 pub(crate) const FINER: f64 = 0.2;
+/// An error that is below this part of the tolerance is found anew at every so many points only.
+const SAFE: f64 = 0.05;
+const CHECKED: usize = 4;
 /// Most refinements at one point.
 const REFINEMENTS: usize = 6;
 
@@ -124,11 +127,13 @@ impl Follower<'_> {
             let reading = match &last {
                 Some(_) => self.reader.read(traced),
                 None => {
-                    match self.check_mesh(traced, walker) {
-                        Ok(found) => error = found,
-                        Err(stall) => {
-                            self.close(traced, walker, leg);
-                            return stalled(&stall);
+                    if error > SAFE * self.tolerance || steps % CHECKED == 0 {
+                        match self.check_mesh(traced, walker) {
+                            Ok(found) => error = found,
+                            Err(stall) => {
+                                self.close(traced, walker, leg);
+                                return stalled(&stall);
+                            }
                         }
                     }
                     self.read(traced, walker)

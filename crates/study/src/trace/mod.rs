@@ -6,6 +6,7 @@ mod branches;
 mod buckle;
 mod critical;
 mod leg;
+mod line;
 mod problem;
 mod record;
 mod search;

@@ -1,5 +1,6 @@
 //! A mechanism whose parameters change, as `continuation` sees it.
 
+use super::line::Line;
 use crate::Prepared;
 use crate::family::Family;
 use flexura_continuation::{Parameters, Problem, Refusal, Tangent};
@@ -8,7 +9,7 @@ use flexura_model::Model;
 use flexura_nonlinear::System;
 
 /// A parameter as `continuation` has it: `value = origin + span × scaled`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Axis {
     /// Position in the model's parameters.
     pub parameter: usize,
@@ -40,6 +41,8 @@ pub(crate) struct Traced<'a> {
     pub axes: [Axis; 2],
     parameters: Parameters,
     laws: Vec<(Parameters, Law)>,
+    /// Where only loads and drives depend on the first parameter.
+    line: Option<Line>,
     /// Why stability is not decided.
     pub undecided: Option<String>,
     /// Is the second parameter another one than the first?
@@ -62,7 +65,23 @@ impl<'a> Traced<'a> {
         parameters: Parameters,
         both: bool,
     ) -> Self {
-        Self { prepared, family, axes, parameters, laws: Vec::new(), undecided: None, both }
+        let mut this =
+            Self { prepared, family, axes, parameters, laws: Vec::new(), line: None, undecided: None, both };
+        this.find_line();
+        this
+    }
+
+    /// Looks whether the model need not be made anew for every value.
+    fn find_line(&mut self) {
+        self.line = None;
+        if self.both {
+            return;
+        }
+        let places = [0.0, 0.382, 1.0];
+        let models: Vec<Model> = places.iter().filter_map(|at| self.model_at([*at, 0.0]).ok()).collect();
+        if let [a, b, c] = &models[..] {
+            self.line = Line::through([(places[0], a), (places[1], b), (places[2], c)]);
+        }
     }
 
     pub fn problem(&mut self) -> &mut Equilibrium {
@@ -105,8 +124,13 @@ impl<'a> Traced<'a> {
         let counts = self.prepared.problem.counts();
         prepared.problem.set_counts(counts);
         self.laws.clear();
+        let same = self.axes == axes && self.both == both;
         (self.axes, self.parameters, self.both) = (axes, parameters, both);
-        std::mem::replace(&mut self.prepared, prepared)
+        let before = std::mem::replace(&mut self.prepared, prepared);
+        if !same {
+            self.find_line();
+        }
+        before
     }
 
     pub fn snapshot(&mut self) -> Snapshot {
@@ -176,6 +200,13 @@ impl Problem for Traced<'_> {
             // What is driven stands in the state, which may have been another one's.
             let load = self.prepared.problem.load_fraction();
             self.prepared.problem.set_load(load);
+            return Ok(());
+        }
+        if let Some(line) = &self.line {
+            line.apply(&mut self.prepared.problem, values[0]);
+            let load = self.prepared.problem.load_fraction();
+            self.prepared.problem.set_load(load);
+            self.parameters = values;
             return Ok(());
         }
         let law = match self.laws.iter().position(|(of, _)| *of == values) {
