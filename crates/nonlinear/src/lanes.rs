@@ -15,6 +15,21 @@ pub(crate) fn largest(v: &[f64]) -> f64 {
     lanes.iter().chain(rest).fold(0.0, |m, x| if x.abs() > m { x.abs() } else { m })
 }
 
+/// The largest |v| w.
+#[inline(always)]
+pub(crate) fn largest_product(v: &[f64], w: &[f64]) -> f64 {
+    let ((v, v_rest), (w, w_rest)) = (v.as_chunks::<8>(), w.as_chunks::<8>());
+    let mut lanes = [0.0_f64; 8];
+    for (v, w) in v.iter().zip(w) {
+        for i in 0..8 {
+            let x = v[i].abs() * w[i];
+            lanes[i] = if x > lanes[i] { x } else { lanes[i] };
+        }
+    }
+    let rest = v_rest.iter().zip(w_rest).fold(0.0, |m, (v, w)| if v.abs() * w > m { v.abs() * w } else { m });
+    lanes.iter().fold(rest, |m, &x| if x > m { x } else { m })
+}
+
 /// Zero times anything that is not finite is not a number.
 #[inline(always)]
 pub(crate) fn all_finite(v: &[f64]) -> bool {

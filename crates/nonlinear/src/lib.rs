@@ -18,6 +18,6 @@ pub use dense::Dense;
 pub use homotopy::{PathEnd, PathOptions, PathWork, follow};
 pub use matrix::Matrix;
 pub use newton::{NewtonEnd, NewtonOptions, converge};
-pub use sparse::{BlockPlace, Sparse};
+pub use sparse::{BlockPlace, Sparse, SparseSymmetric};
 pub use symmetric::{DenseSymmetric, Inertia, Symmetric};
 pub use system::{Breakdown, Lift, Liftable, System};

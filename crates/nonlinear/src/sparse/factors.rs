@@ -91,10 +91,10 @@ impl Scratch {
 
 /// Neighbouring columns of a child that are neighbours in the parent too.
 #[derive(Clone, Copy, Debug)]
-struct Run {
-    from: usize,
-    to: usize,
-    count: usize,
+pub(super) struct Run {
+    pub from: usize,
+    pub to: usize,
+    pub count: usize,
 }
 
 impl Factors {
@@ -373,7 +373,7 @@ impl Factors {
     }
 }
 
-fn find_runs(columns: &[u32], column_at: &[u32], runs: &mut Vec<Run>) {
+pub(super) fn find_runs(columns: &[u32], column_at: &[u32], runs: &mut Vec<Run>) {
     runs.clear();
     for (from, &column) in columns.iter().enumerate() {
         let to = column_at[column as usize] as usize;

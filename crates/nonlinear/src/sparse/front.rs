@@ -10,7 +10,7 @@ use crate::lanes::largest;
 /// Columns of a panel.
 const PANEL: usize = 32;
 /// Rows of a tile.
-const ROWS: usize = 4;
+pub(super) const ROWS: usize = 4;
 /// A pivot is at least this part of the largest number in its column, which bounds growth by 1 + 1 / this.
 const THRESHOLD: f64 = 0.01;
 /// Below this part of the largest number about, a pivot is no pivot.
@@ -229,7 +229,7 @@ fn update<const C: usize>(
 
 /// One tile of L U.
 #[inline(always)]
-fn product<const C: usize>(l: &[[f64; ROWS]], u: &[[f64; C]]) -> [[f64; C]; ROWS] {
+pub(super) fn product<const C: usize>(l: &[[f64; ROWS]], u: &[[f64; C]]) -> [[f64; C]; ROWS] {
     let mut sum = [[0.0; C]; ROWS];
     for (l, u) in l.iter().zip(u) {
         for r in 0..ROWS {

@@ -11,21 +11,26 @@
 //! It is deterministic: equal entries in an equal pattern give equal bits, on any x86-64 processor, and the sign of
 //! the determinant is that of an exact count of exchanges.
 //!
-//! Absent: several threads, factors out of memory, symmetric factors at half the cost, orderings of graphs
-//! without places better than cuts by distance, columns scaled, estimates of the condition, and static pivoting;
-//! a matrix with many weak pivots moves them up the tree at the price of larger fronts.
+//! Symmetric matrices have factors of their own at half the cost (`symmetric/`).
+//!
+//! Absent: several threads, factors out of memory, orderings of graphs without places better than cuts by distance,
+//! columns scaled, estimates of the condition, and static pivoting; a matrix with many weak pivots moves them up the
+//! tree at the price of larger fronts.
 
 mod factors;
 mod front;
 mod ordering;
 mod pattern;
 mod symbolic;
+mod symmetric;
 
 use crate::Breakdown;
 use factors::{Factors, Scratch};
 use pattern::Pattern;
 use std::sync::Arc;
 use symbolic::Tree;
+
+pub use symmetric::SparseSymmetric;
 
 /// Solutions that leave a larger part of a row than this are refined. Lattices of 10,000 beams leave 1e-12 to 1e-11
 /// by the weakest pivots that are let pass, and 1e-15 after one step.
@@ -75,27 +80,7 @@ impl Clone for Sparse {
 impl Sparse {
     /// Makes it an `n` x `n` matrix of zeros whose unknowns come in `blocks`, and forgets which entries there are.
     pub fn arrange(&mut self, n: usize, blocks: &[BlockPlace]) {
-        self.blocks.clear();
-        let mut sorted = blocks.to_vec();
-        sorted.sort_by_key(|block| block.first);
-        let mut next = 0;
-        // Each unknown is in one block, whatever was given.
-        for block in sorted {
-            let (first, end) = (block.first.clamp(next, n), (block.first + block.count).min(n));
-            if next < first {
-                self.blocks.push(BlockPlace { first: next, count: first - next, place: block.place });
-            }
-            if first < end {
-                self.blocks.push(BlockPlace { first, count: end - first, place: block.place });
-                next = end;
-            } else {
-                next = first;
-            }
-        }
-        if next < n {
-            let place = self.blocks.last().map_or([0.0; 3], |block| block.place);
-            self.blocks.push(BlockPlace { first: next, count: n - next, place });
-        }
+        cover(n, blocks, &mut self.blocks);
         self.pattern.arrange(n);
         self.tree = None;
         self.factors.clear();
@@ -204,6 +189,30 @@ impl Sparse {
             + self.factors.memory()
             + self.scratch.memory()
             + self.work.iter().map(bytes).sum::<usize>()
+    }
+}
+
+/// Each unknown in one block, whatever was given, in order.
+fn cover(n: usize, blocks: &[BlockPlace], whole: &mut Vec<BlockPlace>) {
+    whole.clear();
+    let mut sorted = blocks.to_vec();
+    sorted.sort_by_key(|block| block.first);
+    let mut next = 0;
+    for block in sorted {
+        let (first, end) = (block.first.clamp(next, n), (block.first + block.count).min(n));
+        if next < first {
+            whole.push(BlockPlace { first: next, count: first - next, place: block.place });
+        }
+        if first < end {
+            whole.push(BlockPlace { first, count: end - first, place: block.place });
+            next = end;
+        } else {
+            next = first;
+        }
+    }
+    if next < n {
+        let place = whole.last().map_or([0.0; 3], |block| block.place);
+        whole.push(BlockPlace { first: next, count: n - next, place });
     }
 }
 

@@ -1,7 +1,7 @@
 use super::*;
 use crate::Dense;
 
-mod examples;
+pub(in crate::sparse) mod examples;
 mod growth;
 
 use examples::{Example, Numbers, beams, lattice, network};

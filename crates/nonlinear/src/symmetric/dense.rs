@@ -37,14 +37,17 @@ impl Clone for DenseSymmetric {
 }
 
 impl DenseSymmetric {
-    /// Makes it an `n` x `n` matrix of zeros. The factors stay as long as the size does.
-    pub fn reset(&mut self, n: usize) {
-        if n != self.n {
-            self.order.clear();
-        }
+    /// Makes it an `n` x `n` matrix of zeros.
+    pub fn arrange(&mut self, n: usize) {
         self.n = n;
         self.a.clear();
         self.a.resize(n * n, 0.0);
+        self.order.clear();
+    }
+
+    /// Sets all entries to zero. The factors stay.
+    pub fn reset(&mut self) {
+        self.a.fill(0.0);
     }
 
     /// Number of rows.

@@ -7,10 +7,10 @@
 //! symmetric linear systems", Math. Comp. 31 (1977) 163-179; C. Ashcraft, R. G. Grimes and J. G. Lewis, "Accurate
 //! symmetric indefinite linear equation solvers", SIAM J. Matrix Anal. Appl. 20 (1998) 513-561).
 
-use super::scaling::{SWEEPS, correction};
-use super::{Inertia, TINY};
+use super::scaling::equilibrate;
+use super::{Inertia, tiny};
 use crate::Breakdown;
-use crate::lanes::{all_finite, largest, subtract};
+use crate::lanes::{all_finite, largest, largest_product, subtract};
 
 const ALPHA: f64 = 0.640_388_203_202_207_6;
 
@@ -56,15 +56,16 @@ enum Pivot {
 fn factorise_inline(rook: &mut Rook) -> Result<Inertia, Breakdown> {
     rook.equilibrate()?;
     let n = rook.order.len();
+    let tiny = tiny(n);
     let mut inertia = Inertia::default();
     let (mut k, mut growth) = (0, 1.0_f64);
     while k < n {
-        let (pivot, size) = rook.choose(k, TINY * growth);
+        let (pivot, size) = rook.choose(k, tiny * growth);
         growth = growth.max(size);
         k += match pivot {
             Pivot::Zero => {
                 inertia.zero += 1;
-                rook.skip(k, TINY * growth);
+                rook.skip(k, tiny * growth);
                 1
             }
             Pivot::One(i) => {
@@ -96,33 +97,22 @@ impl Rook<'_> {
         if !all_finite(self.a) {
             return Err(Breakdown::NotFinite);
         }
-        self.scale.fill(1.0);
-        for _ in 0..SWEEPS {
-            self.room.fill(0.0);
+        let sweep = |weight: &[f64], largest: &mut [f64]| {
+            largest.fill(0.0);
             for (i, row) in self.a.chunks_exact(n).enumerate() {
-                let mut largest = self.room[i];
-                for (to, v) in self.room[i..].iter_mut().zip(&row[i..]) {
-                    let v = v.abs();
+                let own = weight[i];
+                largest[i] = largest[i].max(largest_product(&row[i..], &weight[i..]));
+                for (to, v) in largest[i + 1..].iter_mut().zip(&row[i + 1..]) {
+                    let v = v.abs() * own;
                     *to = if v > *to { v } else { *to };
-                    largest = if v > largest { v } else { largest };
                 }
-                self.room[i] = largest;
             }
-            let mut done = true;
-            for (factor, scale) in self.room.iter_mut().zip(self.scale.iter_mut()) {
-                *factor = correction(*factor);
-                *scale *= *factor;
-                done &= *factor == 1.0;
-            }
-            if done {
-                break;
-            }
-            for (i, row) in self.a.chunks_exact_mut(n).enumerate() {
-                let factor = self.room[i];
-                for (v, other) in row[i..].iter_mut().zip(&self.room[i..]) {
-                    // Neither product leaves the range of numbers: each factor is at most the inverse root of |v|.
-                    *v = *v * factor * other;
-                }
+        };
+        equilibrate(|i| self.a[i * n + i], sweep, self.scale, self.room);
+        for (i, row) in self.a.chunks_exact_mut(n).enumerate() {
+            let own = self.scale[i];
+            for (v, other) in row[i..].iter_mut().zip(&self.scale[i..]) {
+                *v = *v * own * other;
             }
         }
         Ok(())
@@ -174,23 +164,12 @@ impl Rook<'_> {
         (best.max(0.0), place)
     }
 
-    /// Exchanges the unknowns at places `p` <= `q`.
     #[inline(always)]
     fn exchange(&mut self, p: usize, q: usize) {
-        if p == q {
-            return;
+        if p != q {
+            self.order.swap(p, q);
+            exchange(self.a, self.order.len(), p, q);
         }
-        let n = self.order.len();
-        self.order.swap(p, q);
-        for i in 0..p {
-            self.a.swap(i * n + p, i * n + q);
-        }
-        self.a.swap(p * n + p, q * n + q);
-        for i in p + 1..q {
-            self.a.swap(p * n + i, i * n + q);
-        }
-        let (upper, lower) = self.a.split_at_mut(q * n);
-        upper[p * n + q + 1..(p + 1) * n].swap_with_slice(&mut lower[q + 1..n]);
     }
 
     /// Makes a pivot of the row at `k`, which has nothing in it.
@@ -245,6 +224,20 @@ impl Rook<'_> {
             (*a, *b) = (inverse[0] * *a + inverse[1] * *b, inverse[1] * *a + inverse[2] * *b);
         }
     }
+}
+
+/// Exchanges row and column `p` with `q` > `p` in the upper triangle of a matrix of `n` rows.
+#[inline(always)]
+pub(crate) fn exchange(a: &mut [f64], n: usize, p: usize, q: usize) {
+    for i in 0..p {
+        a.swap(i * n + p, i * n + q);
+    }
+    a.swap(p * n + p, q * n + q);
+    for i in p + 1..q {
+        a.swap(p * n + i, i * n + q);
+    }
+    let (upper, lower) = a.split_at_mut(q * n);
+    upper[p * n + q + 1..(p + 1) * n].swap_with_slice(&mut lower[q + 1..n]);
 }
 
 /// The inverse of \[\[a, b\], \[b, c\]\], b not zero: its diagonal at either end and what stands beside it between. Divided

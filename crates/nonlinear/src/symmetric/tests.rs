@@ -112,11 +112,30 @@ fn scales_that_differ_by_many_orders_of_magnitude_do_not_change_the_inertia() {
         let a = mechanism(seed, 2 + seed as usize / 3, 100.0);
         let expected = signs(&SymmetricEigen::new(a.clone()).eigenvalues);
         let mut numbers = Numbers(seed);
-        for orders in [3.0, 6.0] {
+        for orders in [3.0, 7.0] {
             let scale = DVector::from_fn(a.nrows(), |_, _| 10_f64.powf(orders * numbers.next()));
             let scaled = DMatrix::from_fn(a.nrows(), a.nrows(), |i, j| (a[(i, j)] * scale[i]) * scale[j]);
             assert_eq!(inertia(&scaled), expected);
             assert!(backward_error(&scaled, &scale.map(|s| 1.0 / s)) < 1e-13);
+        }
+    }
+}
+
+/// Round-off on the diagonals of constraints is not taken for a compliance.
+#[test]
+fn soft_parts_beside_the_constraints_that_hold_them_keep_their_signs() {
+    for seed in 0..20 {
+        let poses = 2 + seed as usize / 3;
+        let mut a = mechanism(seed, poses, 1.0);
+        let constraints = 6 * poses..a.nrows();
+        constraints.clone().for_each(|i| a[(i, i)] = 0.0);
+        let expected = signs(&SymmetricEigen::new(a.clone()).eigenvalues);
+        for orders in [4, 8, 12] {
+            let mut soft = a.clone();
+            let mut part = soft.view_mut((0, 0), (6 * poses, 6 * poses));
+            part *= 10_f64.powi(-orders);
+            constraints.clone().for_each(|i| soft[(i, i)] = 1e-17 * (i as f64).sin());
+            assert_eq!(inertia(&soft), expected);
         }
     }
 }
@@ -219,7 +238,7 @@ fn a_matrix_is_used_again() {
     let mut symmetric = Symmetric::default();
     let mut kept = Symmetric::default();
     for seed in 0..12 {
-        let a = mechanism(seed, [5, 2, 9, 2][seed as usize / 3], 10.0);
+        let a = mechanism(seed, [5, 2, 20, 3][seed as usize / 3], 10.0);
         if seed % 3 == 0 {
             symmetric.arrange(a.nrows(), &[]);
         }
@@ -227,6 +246,7 @@ fn a_matrix_is_used_again() {
         let expected = inertia(&a);
         assert_eq!(symmetric.factorise(), Ok(expected));
         assert_eq!(symmetric.size(), a.nrows());
+        assert_eq!(matches!(symmetric, Symmetric::Sparse(_)), a.nrows() > LARGEST_DENSE);
         kept.clone_from(&symmetric);
         // Factors outlive the entries.
         symmetric.reset();
