@@ -1,15 +1,10 @@
 //! Planar mechanisms of rigid bodies and uniform beams: the second method for flexure mechanisms.
 //!
-//! Every beam is integrated from its start by its Taylor series; its start wrench and start angle are unknown, as are
-//! the bodies' poses. Newton's method closes the beams at their ends and balances the bodies, all at once and dense,
-//! with differences for the Jacobian. (Series: Corliss and Chang, *ACM Trans. Math. Softw.* 8 (1982) 114.)
-//!
-//! ```text
-//! x' = (1+ε) cos θ   y' = (1+ε) sin θ   θ' = κ + M/EI   M' = y' Fx - x' Fy   ε = (Fx cos θ + Fy sin θ)/EA
-//! ```
-//!
-//! F and M act by the part beyond s on the part before.
+//! Every beam is integrated from its start by its Taylor series ([`crate::taylor`]); its start wrench and start angle are
+//! unknown, as are the bodies' poses. Newton's method closes the beams at their ends and balances the bodies, all at once
+//! and dense, with differences for the Jacobian.
 
+use crate::taylor::Section;
 use nalgebra::{DMatrix, DVector};
 
 /// Where one end of a beam is.
@@ -87,39 +82,19 @@ pub struct NotConverged {
     pub step: f64,
 }
 
-const ORDER: usize = 18;
 const STEPS: usize = 24;
 
 impl Beam {
     /// x, y, θ, M at s = L.
-    fn integrate(&self, start: [f64; 4], force: [f64; 2]) -> [f64; 4] {
-        let h = self.length / STEPS as f64;
-        (0..STEPS).fold(start, |y, _| self.step(y, force, h))
-    }
-
-    fn step(&self, at: [f64; 4], [fx, fy]: [f64; 2], h: f64) -> [f64; 4] {
-        let mut series = [[0.0; ORDER + 1]; 4];
-        let (mut c, mut s) = ([0.0; ORDER + 1], [0.0; ORDER + 1]);
-        let mut length = [0.0; ORDER + 1];
-        let mut slope = [0.0; ORDER + 1];
-        for i in 0..4 {
-            series[i][0] = at[i];
-        }
-        (c[0], s[0]) = (at[2].cos(), at[2].sin());
-        for k in 0..ORDER {
-            let n = (k + 1) as f64;
-            length[k] = self.stretch * (fx * c[k] + fy * s[k]) + if k == 0 { 1.0 } else { 0.0 };
-            slope[k] = series[3][k] / self.bending + if k == 0 { self.curvature } else { 0.0 };
-            let product = |a: &[f64], b: &[f64]| (0..=k).map(|j| a[j] * b[k - j]).sum::<f64>();
-            let (dx, dy) = (product(&length, &c), product(&length, &s));
-            series[0][k + 1] = dx / n;
-            series[1][k + 1] = dy / n;
-            series[2][k + 1] = slope[k] / n;
-            series[3][k + 1] = (dy * fx - dx * fy) / n;
-            let (dc, ds) = (-product(&s, &slope), product(&c, &slope));
-            (c[k + 1], s[k + 1]) = (dc / n, ds / n);
-        }
-        series.map(|terms| terms.iter().rev().fold(0.0, |sum, term| sum * h + term))
+    fn integrate(&self, [x, y, angle, moment]: [f64; 4], [fx, fy]: [f64; 2]) -> [f64; 4] {
+        let section = Section {
+            bending: self.bending,
+            stretch: self.stretch,
+            curvature: self.curvature,
+            load: [0.0; 2],
+        };
+        let [x, y, angle, moment, _, _] = section.carry([x, y, angle, moment, fx, fy], self.length, STEPS);
+        [x, y, angle, moment]
     }
 }
 
