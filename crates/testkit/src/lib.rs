@@ -12,8 +12,10 @@ pub mod elastica;
 pub mod elliptic;
 pub mod helix;
 pub mod ivp;
+pub mod lateral;
 pub mod least_norm;
 pub mod path;
+pub mod perturbation;
 pub mod planar;
 pub mod rod;
 pub mod roll_up;
@@ -23,6 +25,7 @@ pub mod spring;
 pub mod strip;
 pub mod taper;
 pub mod taylor;
+pub mod torsion;
 pub mod tubes;
 
 mod assert;

@@ -10,9 +10,11 @@ use crate::jacobian::numerical_jacobian;
 use crate::roots::root;
 use nalgebra::{DMatrix, DVector};
 
+type Residual<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
+
 /// The equations.
 pub struct Curve<'a> {
-    residual: Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>,
+    residual: Residual<'a>,
     scales: Vec<f64>,
 }
 
