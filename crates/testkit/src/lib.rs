@@ -3,6 +3,7 @@
 //! Nothing here uses flexura's own solver: it is the second method. Every reference is itself tested
 //! against a published number or a limit.
 
+pub mod arches;
 pub mod bend45;
 pub mod bow;
 pub mod chebyshev;
@@ -20,7 +21,9 @@ pub mod planar;
 pub mod rod;
 pub mod roll_up;
 pub mod roots;
+pub mod slide_law;
 pub mod slope;
+pub mod snaps;
 pub mod spring;
 pub mod strip;
 pub mod taper;

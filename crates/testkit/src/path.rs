@@ -7,7 +7,7 @@
 
 use crate::chebyshev::{interpolate, points};
 use crate::jacobian::numerical_jacobian;
-use crate::roots::root;
+use crate::roots::{root, root_within};
 use nalgebra::{DMatrix, DVector};
 
 type Residual<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
@@ -63,16 +63,7 @@ impl<'a> Curve<'a> {
         let mut step = f64::INFINITY;
         for _ in 0..30 {
             let mut residual = DVector::from_vec((self.residual)(&y));
-            let mut jacobian = DMatrix::zeros(others.len(), others.len());
-            for (column, &j) in others.iter().enumerate() {
-                let h = 1e-5 * self.scales[j];
-                let mut moved = y.clone();
-                moved[j] += h;
-                let plus = DVector::from_vec((self.residual)(&moved));
-                moved[j] -= 2.0 * h;
-                let minus = DVector::from_vec((self.residual)(&moved));
-                jacobian.set_column(column, &((plus - minus) / 2e-5));
-            }
+            let jacobian = self.rough_jacobian(&y).remove_column(leading);
             if !jacobian.lu().solve_mut(&mut residual) {
                 break;
             }
@@ -88,7 +79,22 @@ impl<'a> Curve<'a> {
         if step < 1e-9 { Ok(y) } else { Err(PathError::NotConverged { value, step }) }
     }
 
-    /// The Jacobian by the scaled unknowns, differences of order eight.
+    /// The Jacobian by the scaled unknowns, differences of order two: good for Newton's method and for signs.
+    fn rough_jacobian(&self, y: &[f64]) -> DMatrix<f64> {
+        let mut jacobian = DMatrix::zeros(y.len() - 1, y.len());
+        for j in 0..y.len() {
+            let h = 1e-5 * self.scales[j];
+            let mut moved = y.to_vec();
+            moved[j] += h;
+            let plus = DVector::from_vec((self.residual)(&moved));
+            moved[j] -= 2.0 * h;
+            let minus = DVector::from_vec((self.residual)(&moved));
+            jacobian.set_column(j, &((plus - minus) / 2e-5));
+        }
+        jacobian
+    }
+
+    /// The same by differences of order eight.
     fn jacobian(&self, y: &[f64]) -> DMatrix<f64> {
         let local = |x: &[f64]| {
             let moved: Vec<f64> = (0..y.len()).map(|j| y[j] + self.scales[j] * x[j]).collect();
@@ -99,15 +105,14 @@ impl<'a> Curve<'a> {
 
     /// The derivatives of all unknowns by the one that leads. None where that one has a fold.
     pub fn slope(&self, y: &[f64], leading: usize) -> Option<Vec<f64>> {
-        let jacobian = self.jacobian(y);
-        let right = -jacobian.column(leading).clone_owned();
-        let others = jacobian.remove_column(leading).lu().solve(&right)?;
-        let mut slope: Vec<f64> = others.iter().copied().collect();
-        slope.insert(leading, 1.0);
-        for j in 0..slope.len() {
-            slope[j] *= self.scales[j] / self.scales[leading];
-        }
-        Some(slope)
+        let scaled = null_vector(self.jacobian(y), leading)?;
+        Some(
+            scaled
+                .iter()
+                .zip(&self.scales)
+                .map(|(slope, scale)| slope * scale / self.scales[leading])
+                .collect(),
+        )
     }
 
     /// The determinant of the derivatives by the scaled unknowns, that of the leading one left out. With the load in
@@ -129,24 +134,29 @@ impl<'a> Curve<'a> {
     ) -> Result<Vec<f64>, PathError> {
         let (from, to) = (a[leading], b[leading]);
         let mut failure = None;
-        let point = |value: f64| {
-            let part = (value - from) / (to - from);
-            let guess: Vec<f64> = a.iter().zip(b).map(|(a, b)| a + part * (b - a)).collect();
-            self.at(&guess, leading, value)
-        };
-        let found = root(
-            |value| match point(value) {
-                Ok(y) => f(&y),
+        // Every solution is the guess for the next.
+        let mut last = a.to_vec();
+        let value = |value: f64| {
+            let far = (value - from).abs() > 0.5 * (to - from).abs();
+            if last == a && far {
+                last = b.to_vec();
+            }
+            match self.at(&last, leading, value) {
+                Ok(y) => {
+                    let result = f(&y);
+                    last = y;
+                    result
+                }
                 Err(error) => {
                     failure = Some(error);
                     f64::NAN
                 }
-            },
-            from,
-            to,
-        );
+            }
+        };
+        // The functions have noise of this size.
+        let found = root_within(value, from, to, 1e-13 * (to - from).abs());
         match found {
-            Some(value) => point(value),
+            Some(value) => self.at(&last, leading, value),
             None => Err(failure.unwrap_or(PathError::NoSignChange)),
         }
     }
@@ -207,13 +217,11 @@ impl<'a> Curve<'a> {
     ) -> Result<Vec<Point>, PathError> {
         let mut path: Vec<Point> = Vec::new();
         let stuck = |y: &[f64], leading: usize| PathError::NotConverged { value: y[leading], step: f64::NAN };
-        let scaled = |slope: &[f64]| -> DVector<f64> {
-            let all = DVector::from_iterator(slope.len(), slope.iter().zip(&self.scales).map(|(t, s)| t / s));
-            let norm = all.norm();
-            all / norm
+        let direction_at = |y: &[f64], leading: usize| {
+            null_vector(self.rough_jacobian(y), leading).map(|direction| direction.normalize())
         };
-        let first = self.slope(start, leading).ok_or_else(|| stuck(start, leading))?;
-        let mut direction = scaled(&first) * step.signum();
+        let mut direction =
+            direction_at(start, leading).ok_or_else(|| stuck(start, leading))? * step.signum();
         let mut y = start.to_vec();
         let mut size = step.abs();
         while path.len() < 2000 {
@@ -228,10 +236,8 @@ impl<'a> Curve<'a> {
                 let ahead: Vec<f64> = y.iter().zip(&slope).map(|(y, t)| y + size * t).collect();
                 if let Ok(next) = self.at(&ahead, leading, ahead[leading]) {
                     let far = (0..y.len()).map(|j| ((next[j] - ahead[j]) / self.scales[j]).abs());
-                    let turned = self.slope(&next, leading).map(|slope| {
-                        let new = scaled(&slope);
-                        if new[leading] * direction[leading] < 0.0 { -new } else { new }
-                    });
+                    let turned = direction_at(&next, leading)
+                        .map(|new| if new[leading] * direction[leading] < 0.0 { -new } else { new });
                     let near = far.fold(0.0, f64::max) < 0.3 * size;
                     if let Some(new) = turned.filter(|new| near && new.dot(&direction) > 0.9) {
                         (y, direction) = (next, new);
@@ -255,6 +261,29 @@ impl<'a> Curve<'a> {
         let between = path.windows(2).filter(|pair| pair[0].slope[turning] * pair[1].slope[turning] < 0.0);
         between.map(|pair| self.fold(&pair[0].at, &pair[1].at, pair[0].leading, turning)).collect()
     }
+
+    /// The branch points along a traced path, in order.
+    ///
+    /// # Errors
+    /// Newton's method fails between two points of the path.
+    pub fn branch_points(&self, path: &[Point]) -> Result<Vec<Vec<f64>>, PathError> {
+        let mut found = Vec::new();
+        for pair in path.windows(2) {
+            let (a, b, leading) = (&pair[0].at, &pair[1].at, pair[0].leading);
+            let rough = |y: &[f64]| self.rough_jacobian(y).remove_column(leading).determinant();
+            if rough(a) * rough(b) < 0.0 {
+                found.push(self.branch_point(a, b, leading)?);
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// The vector with one in the place `leading` that the matrix, of one column more than rows, takes to nothing.
+fn null_vector(jacobian: DMatrix<f64>, leading: usize) -> Option<DVector<f64>> {
+    let right = -jacobian.column(leading).clone_owned();
+    let others = jacobian.remove_column(leading).lu().solve(&right)?;
+    Some(others.insert_row(leading, 1.0))
 }
 
 #[cfg(test)]

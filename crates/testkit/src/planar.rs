@@ -4,6 +4,7 @@
 //! unknown, as are the bodies' poses. Newton's method closes the beams at their ends and balances the bodies, all at once
 //! and dense, with differences for the Jacobian.
 
+use crate::path::Curve;
 use crate::taylor::Section;
 use nalgebra::{DMatrix, DVector};
 
@@ -107,6 +108,17 @@ fn place(end: &End, poses: &[[f64; 3]]) -> [f64; 3] {
 }
 
 impl Mechanism {
+    /// The unknowns at rest: x, y, angle of every body (so that coordinate i of body b is number 3b + i), then four numbers of
+    /// every beam.
+    fn at_rest(&self) -> Vec<f64> {
+        let rest: Vec<[f64; 3]> = self.bodies.iter().map(|body| body.rest).collect();
+        let mut unknowns: Vec<f64> = rest.iter().flatten().copied().collect();
+        for beam in &self.beams {
+            unknowns.extend([0.0, 0.0, 0.0, place(&beam.start, &rest)[2]]);
+        }
+        unknowns
+    }
+
     fn poses(&self, unknowns: &[f64]) -> Vec<[f64; 3]> {
         (0..self.bodies.len()).map(|b| [unknowns[3 * b], unknowns[3 * b + 1], unknowns[3 * b + 2]]).collect()
     }
@@ -195,11 +207,7 @@ impl Mechanism {
 /// Newton's method fails on the way.
 pub fn solve(at: &dyn Fn(f64) -> Mechanism, steps: usize) -> Result<Equilibrium, NotConverged> {
     let mut mechanism = at(0.0);
-    let rest: Vec<[f64; 3]> = mechanism.bodies.iter().map(|body| body.rest).collect();
-    let mut unknowns: Vec<f64> = rest.iter().flatten().copied().collect();
-    for beam in &mechanism.beams {
-        unknowns.extend([0.0, 0.0, 0.0, place(&beam.start, &rest)[2]]);
-    }
+    let mut unknowns = mechanism.at_rest();
     for step in 0..=steps {
         let fraction = step as f64 / steps as f64;
         mechanism = at(fraction);
@@ -208,6 +216,22 @@ pub fn solve(at: &dyn Fn(f64) -> Mechanism, steps: usize) -> Result<Equilibrium,
     let (_, sums, wrenches) = mechanism.evaluate(&unknowns);
     let reactions = sums.iter().map(|sum| sum.map(|value| -value)).collect();
     Ok(Equilibrium { poses: mechanism.poses(&unknowns), reactions, wrenches })
+}
+
+/// The curve of all equilibria of `at(λ)`, with λ of the size `size` as last unknown, and the point of rest at λ = 0. Of the
+/// other unknowns, coordinate i of body b is number 3b + i.
+pub fn curve<'a>(at: impl Fn(f64) -> Mechanism + 'a, size: f64) -> (Curve<'a>, Vec<f64>) {
+    let mechanism = at(0.0);
+    let (length, _) = mechanism.scales();
+    let mut start = mechanism.at_rest();
+    start.push(0.0);
+    let positions = 3 * mechanism.bodies.len();
+    let last = start.len() - 1;
+    let scale = |j: usize| if j < positions && j % 3 < 2 { length } else { 1.0 };
+    let mut scales: Vec<f64> = (0..last).map(scale).collect();
+    scales.push(size);
+    let residual = move |y: &[f64]| at(y[last]).evaluate(&y[..last]).0.iter().copied().collect();
+    (Curve::new(scales, residual), start)
 }
 
 #[cfg(test)]

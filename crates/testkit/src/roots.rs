@@ -5,7 +5,12 @@
 ///
 /// Inverse quadratic interpolation wherever it is safe, halving elsewhere (T. R. Chandrupatla, *Adv. Eng. Softw.* 28
 /// (1997) 145).
-pub fn root(mut f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
+pub fn root(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
+    root_within(f, a, b, 0.0)
+}
+
+/// As [`root`], but content with an interval of the width `tolerance`.
+pub fn root_within(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, tolerance: f64) -> Option<f64> {
     let (mut here, mut there) = (b, a);
     let (mut at_here, mut at_there) = (f(here), f(there));
     if at_here.is_nan() || at_there.is_nan() {
@@ -35,7 +40,7 @@ pub fn root(mut f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
         (here, at_here) = (new, at_new);
         let best = if at_here.abs() < at_there.abs() { here } else { there };
         let width = (there - here).abs();
-        let least = 2.0 * f64::EPSILON * best.abs() + f64::MIN_POSITIVE;
+        let least = tolerance.max(2.0 * f64::EPSILON * best.abs() + f64::MIN_POSITIVE);
         if at_here == 0.0 || width <= least {
             return Some(best);
         }

@@ -55,7 +55,9 @@ impl Section {
             let tension = fx * c[k] + fy * s[k] - qx * before(&c) - qy * before(&s);
             length[k] = self.stretch * tension + if k == 0 { 1.0 } else { 0.0 };
             slope[k] = series[3][k] / self.bending + if k == 0 { self.curvature } else { 0.0 };
-            let product = |a: &[f64], b: &[f64]| (0..=k).map(|j| a[j] * b[k - j]).sum::<f64>();
+            let product = |a: &[f64], b: &[f64]| -> f64 {
+                a[..=k].iter().zip(b[..=k].iter().rev()).map(|(a, b)| a * b).sum()
+            };
             if self.stretch == 0.0 {
                 (dx[k], dy[k]) = (c[k], s[k]);
             } else {
