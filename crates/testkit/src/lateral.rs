@@ -106,8 +106,8 @@ mod tests {
         assert!((0..10).all(|i| at(0.0) * at(0.1 * f64::from(i) * load) > 0.0));
     }
 
-    /// The determinant of one leg, from its far end to the corner, in a frame of the angle `corner` between the legs.
-    fn leg(moment: f64, compliance: [f64; 6], length: f64, corner: f64) -> f64 {
+    /// The determinants of one leg, from its far end to the corner, in a frame of the angle `corner` between the legs.
+    fn leg(moment: f64, compliance: [f64; 6], length: f64, corner: f64) -> [f64; 2] {
         let curvature = moment * compliance[5];
         let state = |_: f64| Prestress {
             strain: Vector3::x(),
@@ -117,10 +117,11 @@ mod tests {
         };
         let transfer = Loaded { length, compliance, state: &state }.transfer(16);
         // Far end: neither turning about e1, e2 nor motion across the plane; what else it does in the plane drops out. At
-        // the corner, with the bisector b in the plane: no turning about b, no moment about its normal in the plane,
-        // no force across, since both legs would exert it with the same sign.
+        // the corner, with the bisector b and its normal in the plane, of motions that are the same on both sides: no
+        // turning about b, no moment about the normal, no force across, which both legs would exert with the same sign.
+        // Of opposite motions: no turning about the normal, no moment about b, no motion across.
         let (s, c) = (PI - 0.5 * corner).sin_cos();
-        let bisector = [c, s];
+        let (bisector, normal) = ([c, s], [-s, c]);
         let row = |first: usize, [a, b]: [f64; 2]| -> Condition {
             std::array::from_fn(|i| {
                 if i == first {
@@ -132,9 +133,12 @@ mod tests {
                 }
             })
         };
-        let rows = [row(3, bisector), row(9, [-bisector[1], bisector[0]]), held([8])[0]];
-        Matrix3::from_fn(|i, j| (0..12).map(|l| rows[i][l] * transfer[(l, [9, 10, 8][j])]).sum())
-            .determinant()
+        let same = [row(3, bisector), row(9, normal), held([8])[0]];
+        let opposite = [row(3, normal), row(9, bisector), held([2])[0]];
+        [same, opposite].map(|rows| {
+            let entry = |i: usize, j: usize| (0..12).map(|l| rows[i][l] * transfer[(l, [9, 10, 8][j])]).sum();
+            Matrix3::from_fn(entry).determinant()
+        })
     }
 
     #[test]
@@ -148,10 +152,13 @@ mod tests {
                 for (sign, critical) in [1.0, -1.0].into_iter().zip(both) {
                     let critical = critical.unwrap();
                     let at = |moment: f64| leg(sign * moment, compliance, length, corner);
-                    let found = root(at, 0.9 * critical, 1.1 * critical).unwrap();
+                    let found = root(|moment| at(moment)[0], 0.9 * critical, 1.1 * critical).unwrap();
                     assert_close(found, critical, 1e-12, "critical");
                     assert_close(critical, usual, if stiff < 1e-3 { 1e-8 } else { 0.2 }, "usual formula");
-                    assert!((1..10).all(|i| at(0.01) * at(0.1 * f64::from(i) * critical) > 0.0));
+                    for (i, last) in [(0, 10), (1, 11)] {
+                        let before = |part: i32| at(0.01)[i] * at(0.1 * f64::from(part) * critical)[i];
+                        assert!((1..last).all(|part| before(part) > 0.0), "{i} {corner} {stiff} {sign}");
+                    }
                 }
             }
         }

@@ -142,6 +142,8 @@ fn the_crossing_slopes_are_found() {
     let wide = [degrees(60.0), degrees(85.0)];
     let crossing = crossing_slope([0.8, 1.6], wide).unwrap();
     assert_close(crossing.to_degrees(), 72.748, 5.1e-4, "n(0.8) = n(1.6)");
+    let top = highest_weight(crossing, [0.8, 1.6]).unwrap();
+    assert_close(turning_slope(top, wide).unwrap(), crossing, 1e-9, "both ways to the top");
     let turning = [0.8, 1.6].map(|weight| turning_slope(weight, wide).unwrap().to_degrees());
     assert_close_all(&turning, &[75.748_4, 69.810_3], 5e-4, "dn/dW = 0");
 }
