@@ -79,13 +79,32 @@ fn go(text: &str, over: &[(&str, &str)], study: TraceStudy, name: &str) -> Trace
     t
 }
 
-fn main() {
-    for _ in 0..2 {
-        go(
-            STRIP,
-            &[],
-            TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 5, ..Default::default() },
-            "plain",
-        );
+fn buckle(path: &str, parameter: Option<&str>, at: f64) {
+    let doc = Document::read(path).map_err(|e| e.render(false)).unwrap();
+    let model = doc.model(&[]).map_err(|e| e.render(false)).unwrap();
+    let mut family = FileFamily::new(&doc, &[], &model);
+    let parameter = parameter.map(|p| model.parameters.iter().position(|q| q.name == p).unwrap());
+    let now = std::time::Instant::now();
+    match flexura::buckle(&model, &mut family, &BuckleStudy { parameter, at, count: 4 }, &Options::default())
+    {
+        Ok(b) => {
+            println!("{path} {:?} in {:?}", b.solution.status, now.elapsed());
+            for m in &b.modes {
+                println!("   {} +- {:.1e}", m.value, m.error_estimate);
+            }
+        }
+        Err(e) => println!("{path} {} {}", e.path, e.message),
     }
+}
+fn file(path: &str, parameter: &str, range: [f64; 2], study: TraceStudy) {
+    let text = std::fs::read_to_string(path).unwrap();
+    let doc = Document::parse(&text, path).map_err(|e| e.render(false)).unwrap();
+    let model = doc.model(&[]).map_err(|e| e.render(false)).unwrap();
+    let parameter = model.parameters.iter().position(|q| q.name == parameter).unwrap();
+    go(&text, &[], TraceStudy { parameter, range, start: range[0], ..study }, path);
+}
+fn main() {
+    let s = || TraceStudy::default();
+    file("models/euler_clamped_free.toml", "push", [0.0, 70.0], TraceStudy { branches: 5, ..s() });
+    file("models/euler_clamped_clamped.toml", "push", [0.0, 170.0], TraceStudy { branches: 5, ..s() });
 }

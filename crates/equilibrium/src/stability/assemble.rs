@@ -12,12 +12,12 @@ use flexura_spatial::{Twist, Vector3, Wrench};
 use nalgebra::Vector6;
 
 type V = Vector3<f64>;
-type Motions = Vec<(usize, Vector6<f64>)>;
+pub(super) type Motions = Vec<(usize, Vector6<f64>)>;
 
 /// A row or column of the plain tangents in the symmetric matrix: its number and sign there; none where it has no part in it.
 #[derive(Clone, Copy, Default)]
-struct Target {
-    at: Option<usize>,
+pub(super) struct Target {
+    pub at: Option<usize>,
     flipped: bool,
 }
 
@@ -49,12 +49,12 @@ impl Numbers {
         (k + 1 < self.stretches || self.free).then_some(self.first + 12 * k + 6)
     }
 
-    fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         12 * self.stretches - if self.free { 0 } else { 6 }
     }
 }
 
-fn vector(angular: V, linear: V) -> Vector6<f64> {
+pub(super) fn vector(angular: V, linear: V) -> Vector6<f64> {
     Vector6::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
 }
 
@@ -133,7 +133,11 @@ impl Equilibrium {
 
     /// Where rows and columns of the plain tangents stand in the symmetric matrix, its size, and how many of its unknowns are
     /// multipliers.
-    fn targets(&self, numbers: &[Numbers], total: usize) -> (Vec<Target>, Vec<Target>, usize, usize) {
+    pub(super) fn targets(
+        &self,
+        numbers: &[Numbers],
+        total: usize,
+    ) -> (Vec<Target>, Vec<Target>, usize, usize) {
         let mut columns = vec![Target::default(); total];
         let mut flipped = vec![false; total];
         let mut size = 0;
@@ -297,7 +301,7 @@ impl Equilibrium {
         }
     }
 
-    fn held_by(&self, hold: &Hold, slot: &CoordinateSlot) -> Held {
+    pub(super) fn held_by(&self, hold: &Hold, slot: &CoordinateSlot) -> Held {
         self.held(&hold.carrier, &HoldRef::of(hold), &self.configuration(slot))
     }
 }

@@ -23,8 +23,10 @@ mod assemble;
 mod mesh;
 mod segment;
 mod undecided;
+mod variation;
 
 pub(crate) use assemble::Second;
+pub use variation::Variation;
 
 use crate::system::Equilibrium;
 use flexura_nonlinear::Breakdown;

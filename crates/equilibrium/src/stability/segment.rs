@@ -33,6 +33,8 @@ pub(super) struct Form {
     pub rp: Matrix6<f64>,
     /// Q S⁻¹.
     pub d: Matrix6<f64>,
+    /// The moment at A.
+    pub start_moment: [f64; 3],
     /// The state at B, before what jumps there.
     pub end: Plain,
 }
@@ -116,6 +118,13 @@ impl Form {
         part += turned;
         // D S = Q, by columns of the transposes.
         let d = s.transpose().lu().solve(&q.transpose())?;
-        Some(Self { p, r, rp: r.transpose() * p, d: (d + d.transpose()) * 0.5, end: end.state })
+        Some(Self {
+            start_moment: start.moment,
+            p,
+            r,
+            rp: r.transpose() * p,
+            d: (d + d.transpose()) * 0.5,
+            end: end.state,
+        })
     }
 }
