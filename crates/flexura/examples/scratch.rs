@@ -104,7 +104,14 @@ fn file(path: &str, parameter: &str, range: [f64; 2], study: TraceStudy) {
     go(&text, &[], TraceStudy { parameter, range, start: range[0], ..study }, path);
 }
 fn main() {
-    let s = || TraceStudy::default();
-    file("models/euler_clamped_free.toml", "push", [0.0, 70.0], TraceStudy { branches: 5, ..s() });
-    file("models/euler_clamped_clamped.toml", "push", [0.0, 170.0], TraceStudy { branches: 5, ..s() });
+    let a: Vec<String> = std::env::args().collect();
+    if a[1] == "buckle" {
+        buckle(&a[2], (a[3] != "-").then_some(a[3].as_str()), a[4].parse().unwrap());
+        return;
+    }
+    let mut s = TraceStudy { branches: a.get(5).map_or(0, |n| n.parse().unwrap()), ..TraceStudy::default() };
+    if let Some(n) = a.get(6) {
+        s.steps = n.parse().unwrap();
+    }
+    file(&a[1], &a[2], [a[3].parse().unwrap(), a[4].parse().unwrap()], s);
 }

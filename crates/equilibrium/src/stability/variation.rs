@@ -86,7 +86,7 @@ impl Equilibrium {
             };
             for (segment, &k) in cut.segments.iter().enumerate() {
                 let form = &cut.forms[k];
-                let before = match k.checked_sub(1).and_then(|k| own.pose(k)) {
+                let before = match own.pose_before(k) {
                     Some(pose) => six(pose),
                     None => moved(&self.held_by(&description.start, &slots.start), slots.start.unknown),
                 };
@@ -95,8 +95,7 @@ impl Equilibrium {
                     (None, Some(end)) => moved(&self.held_by(end, &slots.end), slots.end.unknown),
                     (None, None) => Vector6::zeros(),
                 };
-                let mut change =
-                    form.p.tr_mul(&six(own.wrench(k))) + form.rp * before - form.r.tr_mul(&after);
+                let mut change = -(form.aa * before + form.ba.tr_mul(&after));
                 // From exponential coordinates to a plain change of the moment: less ½ M × θ.
                 let turn = Vector3::new(before[0], before[1], before[2]);
                 let back = Vector3::from(form.start_moment).cross(&turn) * 0.5;
