@@ -14,7 +14,7 @@ impl Model {
         }
     }
 
-    fn check_probes(&self, probes: &[Probe], path: &str, issues: &mut Issues) {
+    pub(super) fn check_probes(&self, probes: &[Probe], path: &str, issues: &mut Issues) {
         for probe in probes {
             let exists = match probe.target {
                 ProbeTarget::Beam(beam, at) => {
