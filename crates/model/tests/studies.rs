@@ -11,7 +11,7 @@ fn model(studies: Vec<StudyKind>) -> Model {
     Model {
         parameters: vec![
             parameter("push", 2.0, "N"),
-            parameter("slope", 0.5, "rad"),
+            parameter("slope", std::f64::consts::FRAC_PI_6, "rad"),
             parameter("plain", 1.0, ""),
         ],
         studies: named.collect(),
@@ -81,8 +81,8 @@ fn each_mistake_of_a_trace_is_found_where_it_is() {
         ]
     );
     assert_eq!(
-        wrong(|t| t.imperfection = Some((1, 0.5))),
-        ["study.s0.imperfection.from: the imperfection begins at 0.5 rad, the value that `slope` has anyway"]
+        wrong(|t| t.imperfection = Some((1, std::f64::consts::FRAC_PI_6))),
+        ["study.s0.imperfection.from: the imperfection begins at 30 deg, the value that `slope` has anyway"]
     );
     let critical = |parameter, range, number| CriticalStudy { parameter, range, number };
     assert_eq!(
@@ -95,7 +95,7 @@ fn each_mistake_of_a_trace_is_found_where_it_is() {
     assert_eq!(
         wrong(|t| t.critical = Some(critical(1, [0.6, 1.0], 1))),
         [
-            "study.s0.critical.range: the critical point is followed from `slope` = 0.5 rad, which is not in the range"
+            "study.s0.critical.range: the critical point is followed from `slope` = 30 deg, which is not in the range"
         ]
     );
 }

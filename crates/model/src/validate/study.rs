@@ -207,7 +207,11 @@ fn ordered([a, b]: [f64; 2]) -> [f64; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// A value of a parameter with its unit.
+/// A value of a parameter with its unit, angles in degrees.
 fn shown(value: f64, parameter: &Parameter) -> String {
+    if parameter.unit == "rad" {
+        // Degrees that were typed come back as they were.
+        return format!("{} deg", (value.to_degrees() * 1e9).round() / 1e9);
+    }
     format!("{value} {}", parameter.unit).trim_end().to_owned()
 }

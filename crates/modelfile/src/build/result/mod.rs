@@ -1,9 +1,11 @@
 //! Results: expressions over them, in outputs and targets.
 
+mod event;
 mod readable;
 mod target;
 mod walk;
 
+pub(super) use event::{event, stop};
 pub(super) use readable::{Part, coordinates};
 pub(super) use target::targets;
 pub(super) use walk::Walk;
