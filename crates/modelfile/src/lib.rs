@@ -49,7 +49,7 @@ pub use schema::schema;
 pub use typed::Flag;
 
 use context::{Context, Reported, suggest};
-use flexura_model::Model;
+use flexura_model::{Model, Study};
 use report::{Source, Texts};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -136,10 +136,10 @@ impl Document {
         })
     }
 
-    /// [`Document::model`] with other values of the parameters of `base`. Its studies are those of `base`, in the same
-    /// order; where they read well with these values, they have them.
-    pub fn model_beside(&self, overrides: &[(String, String)], base: &Model) -> Result<Model, Report> {
-        self.build(overrides, Some(base), |model, context| match model {
+    /// [`Document::model`] beside another one of this file that has these studies: they are there in the same order, and
+    /// where they read well with the values at hand, they have them.
+    pub fn model_beside(&self, overrides: &[(String, String)], studies: &[Study]) -> Result<Model, Report> {
+        self.build(overrides, Some(studies), |model, context| match model {
             Some(model) => Ok(model),
             None => Err(context.into_report()),
         })
@@ -157,7 +157,7 @@ impl Document {
     fn build<T>(
         &self,
         overrides: &[(String, String)],
-        base: Option<&Model>,
+        beside: Option<&[Study]>,
         then: impl FnOnce(Option<Model>, Context<'_>) -> T,
     ) -> T {
         let mut context = Context::new(&self.texts, &self.folder, &self.root);
@@ -165,12 +165,12 @@ impl Document {
         match repeat::expand(&context) {
             Err(Reported) => then(None, context),
             Ok(None) => {
-                let model = build::model(&context, base);
+                let model = build::model(&context, beside);
                 then(model, context)
             }
             Ok(Some(expanded)) => {
                 let context = context.over(&expanded);
-                let model = build::model(&context, base);
+                let model = build::model(&context, beside);
                 then(model, context)
             }
         }

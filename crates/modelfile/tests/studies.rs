@@ -167,7 +167,7 @@ event = "output.w = depth"
 "#;
     let document = document(text);
     let base = document.model(&[]).unwrap();
-    let beside = document.model_beside(&[("depth".into(), "30 mm".into())], &base).unwrap();
+    let beside = document.model_beside(&[("depth".into(), "30 mm".into())], &base.studies).unwrap();
     assert_eq!(trace_of(&beside, 0).events[0].value, 0.015);
     assert_eq!(trace_of(&beside, 0).range[1], 0.05);
     // The range of the second has no length any more: it stays what it was.

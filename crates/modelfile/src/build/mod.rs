@@ -19,7 +19,7 @@ use crate::format::{FILE, Key, Named, Shape, Table};
 use crate::parameters;
 use crate::reader::Reader;
 use crate::tree::{Entry, Node, Value};
-use flexura_model::{Model, Parameter, name_problem};
+use flexura_model::{Model, Parameter, Study, name_problem};
 use flexura_spatial::Vector3;
 use std::collections::BTreeSet;
 
@@ -31,9 +31,9 @@ pub(crate) fn parameters(context: &mut Context<'_>, overrides: &[(String, String
     parameters::evaluate(context, overrides);
 }
 
-/// Reads the whole file. None: something is wrong, which has been recorded. With a `base`, it is a model beside that one,
-/// of which it has the studies.
-pub(crate) fn model(context: &Context<'_>, base: Option<&Model>) -> Option<Model> {
+/// Reads the whole file. None: something is wrong, which has been recorded. With the studies of another model, it is one
+/// beside that.
+pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<Model> {
     let root = context.root;
     let file = Reader::open_node(context, root, &(0..0), &FILE, "").ok()?;
     let mut model = Model {
@@ -72,7 +72,7 @@ pub(crate) fn model(context: &Context<'_>, base: Option<&Model>) -> Option<Model
     model.unknowns = unknown::unknowns(context, &model);
     model.targets = result::targets(context, named_entries(context, "target"), &model, &outputs);
     model.outputs = outputs.iter().map(|built| built.output.clone()).collect();
-    if base.is_none() {
+    if beside.is_none() {
         model.studies = study::studies(context, &model, &outputs);
     }
     if !context.any_problem() {
@@ -93,8 +93,8 @@ pub(crate) fn model(context: &Context<'_>, base: Option<&Model>) -> Option<Model
     if context.any_problem() {
         return None;
     }
-    if let Some(base) = base {
-        model.studies = study::studies_beside(context, &model, &outputs, &base.studies);
+    if let Some(studies) = beside {
+        model.studies = study::studies_beside(context, &model, &outputs, studies);
     }
     Some(model)
 }

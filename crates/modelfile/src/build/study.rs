@@ -22,13 +22,13 @@ pub(super) fn studies(context: &Context<'_>, model: &Model, outputs: &[Built]) -
         .collect()
 }
 
-/// The studies of `base` in their order, with what they are for this model. A range may lose its length as a parameter
+/// The studies of another model of this file in their order, as they are for this one. A range may lose its length as a parameter
 /// changes that is followed between its ends: a study that no longer reads well stays as it is.
 pub(super) fn studies_beside(
     context: &Context<'_>,
     model: &Model,
     outputs: &[Built],
-    base: &[Study],
+    others: &[Study],
 ) -> Vec<Study> {
     let entries = named_entries(context, "study");
     let count = context.count();
@@ -38,7 +38,7 @@ pub(super) fn studies_beside(
         context.forget(count);
         study.filter(|study| model.study_issues(study).is_empty())
     };
-    base.iter().map(|known| again(known).unwrap_or_else(|| known.clone())).collect()
+    others.iter().map(|known| again(known).unwrap_or_else(|| known.clone())).collect()
 }
 
 fn study(context: &Context<'_>, entry: &Entry, model: &Model, outputs: &[Built]) -> Read<Study> {
