@@ -20,10 +20,10 @@ pub use csv::beams_csv;
 pub use document::{document, equilibrium_document};
 pub use json::{Named, to_json};
 pub use read::{ReadError, read_document, solution_of};
-pub use svg::shape_svg;
+pub use svg::{diagram_svg, modes_svg, shape_svg, shapes_svg};
 pub use trace::{
     BranchDocument, BucklingDocument, CriticalDocument, ModeDocument, MotionDocument, MotionsDocument,
-    PointDocument, ShapeDocument, TraceDocument, TraceView, TraceWorkDocument, buckling_document,
+    PointDocument, Remake, ShapeDocument, TraceDocument, TraceView, TraceWorkDocument, buckling_document,
     critical_csv, modes_csv, path_csv, trace_document,
 };
 pub use vtk::model_vtp;

@@ -14,6 +14,9 @@ pub use wire::{
 use flexura_model::{Model, TraceStudy};
 use flexura_solution::{Trace, TracePoint};
 
+/// Makes a model again with other values (SI) of parameters, by their positions.
+pub type Remake<'f> = dyn FnMut(&[(usize, f64)]) -> Option<Model> + 'f;
+
 /// A trace with what belongs to it: the study, and the model as it is at every point whose state is kept. The parameter
 /// may be a thickness or the place of a support, so that one model does not do for all.
 #[derive(Clone, Debug)]
@@ -31,14 +34,8 @@ pub struct TraceView<'a> {
 }
 
 impl<'a> TraceView<'a> {
-    /// Makes the models of the kept states by `make`, from positions and values (SI) of parameters; where it gives none, the
-    /// model at hand stands in.
-    pub fn new(
-        model: &'a Model,
-        study: &'a TraceStudy,
-        trace: &'a Trace,
-        make: &mut dyn FnMut(&[(usize, f64)]) -> Option<Model>,
-    ) -> Self {
+    /// Makes the models of the kept states; where `make` gives none, the model at hand stands in.
+    pub fn new(model: &'a Model, study: &'a TraceStudy, trace: &'a Trace, make: &mut Remake<'_>) -> Self {
         let mut again = |point: &TracePoint, second: Option<(usize, f64)>| {
             point.solution.as_ref()?;
             let values: Vec<(usize, f64)> =
