@@ -99,6 +99,25 @@
 //!
 //! Whole grids over the parameters of a file are solved by a [`Sweep`], on all cores.
 //!
+//! # Paths of equilibria
+//!
+//! A study in the file follows equilibria as one parameter changes, past folds and through branch points, and says where they
+//! are stable:
+//!
+//! ```no_run
+//! use flexura::solution::PointKind;
+//! let traced = flexura::trace_file("strip.toml", &[], Some("path"), &flexura::Options::default())?;
+//! for point in traced.trace.branches.iter().flat_map(|branch| &branch.points) {
+//!     if point.kind == PointKind::Fold {
+//!         println!("turns back at {} N", point.parameter);
+//!     }
+//! }
+//! std::fs::write("diagram.svg", flexura::output::diagram_svg(&traced.view()))?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`trace`] and [`buckle`] do the same for a model that was built in Rust, with a [`Family`] that makes it again with other values.
+//!
 //! # Results
 //!
 //! Not converging is no error: [`solution::Status`] says how a study ended, and the solution holds how far
@@ -109,6 +128,7 @@ mod family;
 mod places;
 mod solve_file;
 mod sweep;
+mod trace_file;
 
 pub use family::FileFamily;
 pub use places::place;
@@ -127,3 +147,4 @@ pub use flexura_study::{
     TraceProgress, buckle, check, equilibria, solve, solve_family, trace,
 };
 pub use solve_file::{Error, Solved, solve_file};
+pub use trace_file::{Buckled, Traced, buckle_file, study_named, trace_file, trace_view};
