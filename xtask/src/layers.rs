@@ -5,7 +5,7 @@ use crate::step::{Outcome, entries, read, root};
 /// Floors from the ground up. A crate may depend on crates of lower floors only.
 const FLOORS: &[&[&str]] = &[
     &["spatial", "expression", "nonlinear"],
-    &["model"],
+    &["model", "continuation"],
     &["solution", "geometry", "mechanics"],
     &["modelfile", "equilibrium", "post"],
     &["study"],
@@ -19,8 +19,8 @@ const BESIDE: &[&str] = &["testkit", "verification"];
 
 /// What gives results a meaning never looks at how they were found, and what solves knows no files.
 const NEVER: &[(&str, &[&str])] = &[
-    ("post", &["modelfile", "mechanics", "nonlinear", "equilibrium", "study"]),
-    ("output", &["modelfile", "mechanics", "nonlinear", "equilibrium", "study"]),
+    ("post", &["modelfile", "mechanics", "nonlinear", "continuation", "equilibrium", "study"]),
+    ("output", &["modelfile", "mechanics", "nonlinear", "continuation", "equilibrium", "study"]),
     ("study", &["modelfile"]),
 ];
 

@@ -153,6 +153,14 @@ impl BeamLaw {
         })
     }
 
+    /// Is there a distributed moment in fixed axes?
+    pub fn turns(&self) -> bool {
+        self.beam
+            .distributed
+            .iter()
+            .any(|d| d.axes == LoadAxes::Global && d.moment.iter().any(|p| p.as_constant() != Some(0.0)))
+    }
+
     /// Arc lengths inside the beam where something is not smooth, SI, increasing.
     pub fn breaks(&self) -> Vec<f64> {
         let mut breaks = self.shape.breaks().to_vec();

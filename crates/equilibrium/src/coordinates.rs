@@ -32,20 +32,7 @@ impl Coordinates {
             .coordinates
             .iter()
             .zip(units)
-            // Force along a length, or moment about an axis.
-            .map(|(c, length)| (c, length, scale.moment() / length))
-            .map(|(c, length, effort)| CoordinateLaw {
-                drive: match c.drive {
-                    Drive::Free { effort: e } => Drive::Free { effort: e / effort },
-                    Drive::Driven { coordinate } => Drive::Driven { coordinate: coordinate / length },
-                },
-                stiffness: c.stiffness * length / effort,
-                rest: c.rest / length,
-                limits: c.limits.map(|l| flexura_model::Limits {
-                    range: l.range.map(|v| v / length),
-                    stiffness: l.stiffness.map(|k| k * length / effort),
-                }),
-            })
+            .map(|(c, length)| scaled(c, length, scale.moment() / length))
             .collect();
         let free =
             (0..laws.len()).filter(|&i| matches!(laws[i].drive, Drive::Free { .. })).collect::<Vec<_>>();
@@ -58,6 +45,12 @@ impl Coordinates {
             spin_held: None,
             units,
         }
+    }
+
+    /// Changes what acts on a coordinate, which stays driven or free as it is; SI.
+    pub fn set_law(&mut self, coordinate: usize, law: &CoordinateLaw, scale: &Scale) {
+        let length = self.units[coordinate];
+        self.laws[coordinate] = scaled(law, length, scale.moment() / length);
     }
 
     /// Number of unknown coordinates.
@@ -249,6 +242,22 @@ impl Coordinates {
             .zip(self.units)
             .map(|(q, unit)| q * unit)
             .collect()
+    }
+}
+
+/// A law in units of a coordinate and of its effort: force along a length, or moment about an axis.
+fn scaled(law: &CoordinateLaw, length: f64, effort: f64) -> CoordinateLaw {
+    CoordinateLaw {
+        drive: match law.drive {
+            Drive::Free { effort: e } => Drive::Free { effort: e / effort },
+            Drive::Driven { coordinate } => Drive::Driven { coordinate: coordinate / length },
+        },
+        stiffness: law.stiffness * length / effort,
+        rest: law.rest / length,
+        limits: law.limits.map(|l| flexura_model::Limits {
+            range: l.range.map(|v| v / length),
+            stiffness: l.stiffness.map(|k| k * length / effort),
+        }),
     }
 }
 

@@ -14,6 +14,7 @@
 //!   springs and cables; `system`: the `System` trait on it;
 //! - `accuracy`: the error estimate; `diagnose`: what is loose or held twice; `redundancy`: loops that close nonetheless;
 //! - `tangents`: compliances and motions; `neighbour`: other numbers under the same state; `stand`: an earlier result as state;
+//! - `stability`: how many directions an equilibrium is unstable in;
 //! - `extract` and `samples`: the solution.
 
 mod accuracy;
@@ -36,6 +37,7 @@ mod redundancy;
 mod samples;
 mod scale;
 mod shooting;
+mod stability;
 mod stand;
 mod system;
 mod tangents;
@@ -49,4 +51,5 @@ pub use tangents::CENTRAL;
 pub use accuracy::Finish;
 pub use diagnose::Census;
 pub use error::ProblemError;
+pub use stability::Stability;
 pub use system::{Counts, Equilibrium};

@@ -192,10 +192,9 @@ impl Equilibrium {
         state
     }
 
-    /// New segments where forces have grown; true if the state's layout changed.
-    pub(crate) fn resegment(&mut self) -> bool {
-        let counts: Vec<usize> = self
-            .lowered
+    /// How many segments the spans should have.
+    fn wanted_segments(&self) -> Vec<usize> {
+        self.lowered
             .spans
             .iter()
             .zip(&self.levels)
@@ -206,12 +205,46 @@ impl Equilibrium {
                 // A little more than needed, so that a growing force does not cut again at every step.
                 if wanted > present { (wanted * 3).div_ceil(2) } else { present }
             })
-            .collect();
+            .collect()
+    }
+
+    /// Have forces grown so that the spans should be cut into more segments, which changes the layout of the state?
+    pub fn wants_segments(&self) -> bool {
+        self.wanted_segments().iter().zip(&self.meshes).any(|(c, m)| *c != m.segments.len())
+    }
+
+    /// Have forces grown so that the mesh should have more steps?
+    pub fn wants_steps(&self) -> bool {
+        self.lowered.spans.iter().zip(&self.meshes).zip(&self.levels).any(|((span, mesh), level)| {
+            let law = &self.lowered.beams[span.beam];
+            mesh.stretches().any(|s| level.steps(law, span, s.s, self.accuracy) > s.piece.steps)
+        })
+    }
+
+    /// Makes a mesh of this accuracy.
+    pub fn set_mesh_accuracy(&mut self, accuracy: f64) {
+        self.restep(accuracy, false);
+    }
+
+    /// Cuts the spans as another problem of the same model has them cut; the state stays.
+    pub fn take_segments_of(&mut self, other: &Self) {
+        let counts: Vec<usize> = other.meshes.iter().map(|mesh| mesh.segments.len()).collect();
+        self.cut(&counts);
+    }
+
+    /// New segments where forces have grown; true if the state's layout changed.
+    pub(crate) fn resegment(&mut self) -> bool {
+        let counts = self.wanted_segments();
         if counts.iter().zip(&self.meshes).all(|(c, m)| *c == m.segments.len()) {
             return false;
         }
+        self.cut(&counts);
+        true
+    }
+
+    fn cut(&mut self, counts: &[usize]) {
         let old = self.clone();
-        self.remesh(&counts);
+        self.remesh(counts);
         self.x = vec![0.0; self.layout.state];
         for (to, from) in self.layout.nodes.iter().zip(&old.layout.nodes) {
             self.x[to.state..to.state + 7].copy_from_slice(&old.x[from.state..from.state + 7]);
@@ -245,7 +278,6 @@ impl Equilibrium {
                 self.x[at + 10..at + 13].copy_from_slice(&state.moment);
             }
         }
-        true
     }
 }
 

@@ -91,6 +91,8 @@ impl Equilibrium {
                 }
             }
         }
+        let watched = self.watched.iter().filter(|point| point.beam.0 == beam);
+        places.extend(watched.map(|point| point.at.arc_length(length).clamp(0.0, length)));
         for span in self.lowered.spans.iter().filter(|s| s.beam == beam) {
             places.extend(span.s);
             places.extend(span.jumps.iter().map(|j| j.s));

@@ -8,7 +8,7 @@ use crate::mesh::{Level, SpanMesh};
 use crate::shooting::{Plain, SegmentEnd};
 use flexura_mechanics::joint::Configuration;
 use flexura_model::{BeamPoint, JointKind, LoadId, LoadTarget, Model};
-use flexura_nonlinear::{BLOCK, Breakdown, Chain, Matrix, System};
+use flexura_nonlinear::{BLOCK, Breakdown, Chain, Lift, Liftable, Matrix, Symmetric, System};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, exp, log};
 
 /// A model made ready to be solved, again and again, from rest or from where it stands.
@@ -17,6 +17,8 @@ pub struct Equilibrium {
     pub(crate) model: Model,
     /// Places on beams that have a node because their motion is asked for.
     pub(crate) probes: Vec<BeamPoint>,
+    /// Places on beams that are sampled besides those that outputs ask for.
+    pub(crate) watched: Vec<BeamPoint>,
     pub(crate) lowered: Lowered,
     pub(crate) meshes: Vec<SpanMesh>,
     pub(crate) layout: Layout,
@@ -30,6 +32,11 @@ pub struct Equilibrium {
     pub(crate) chains: Vec<Chain>,
     /// Is the tangent factorised, in the present layout?
     pub(crate) factorised: bool,
+    /// An entry that is lifted in tangents, and by how much it was in the last one.
+    lift: Option<Lift>,
+    lifted_by: f64,
+    /// The second variation.
+    pub(crate) second: Symmetric,
     /// An earlier tangent, factorised.
     kept: (Matrix, Vec<Chain>),
     pub(crate) gaps: Vec<Vec<[f64; BLOCK]>>,
@@ -67,6 +74,8 @@ pub struct Counts {
     pub factorisations: usize,
     /// Residuals evaluated without a tangent.
     pub residuals: usize,
+    /// Second variations whose negative directions were counted.
+    pub inertias: usize,
 }
 
 impl Equilibrium {
@@ -89,6 +98,7 @@ impl Equilibrium {
         let mut this = Self {
             model: model.clone(),
             probes,
+            watched: Vec::new(),
             meshes: Vec::new(),
             layout: Layout::default(),
             x: Vec::new(),
@@ -98,6 +108,9 @@ impl Equilibrium {
             tangent: Matrix::default(),
             chains: Vec::new(),
             factorised: false,
+            lift: None,
+            lifted_by: 0.0,
+            second: Symmetric::default(),
             kept: (Matrix::default(), Vec::new()),
             gaps: Vec::new(),
             r: Vec::new(),
@@ -129,6 +142,16 @@ impl Equilibrium {
     /// Work done since the state was last put at rest.
     pub fn counts(&self) -> Counts {
         self.counts
+    }
+
+    /// Goes on counting from these.
+    pub fn set_counts(&mut self, counts: Counts) {
+        self.counts = counts;
+    }
+
+    /// Places on beams that are samples of every solution from now on, besides those that outputs ask for.
+    pub fn watch(&mut self, places: Vec<BeamPoint>) {
+        self.watched = places;
     }
 
     /// Length (m) and force (N) that count as one.
@@ -177,6 +200,19 @@ impl Equilibrium {
             }
         }
         self.sum_known_forces();
+    }
+
+    /// Changes what drives or loads a joint's coordinate; whether it is driven stays as it is. A driven coordinate moves there
+    /// when the load fraction is set next.
+    pub fn set_coordinate_law(&mut self, joint: usize, coordinate: usize, law: flexura_model::CoordinateLaw) {
+        self.model.joints[joint].law.coordinates[coordinate] = law;
+        let scale = self.lowered.scale;
+        self.lowered.joints[joint].coordinates.set_law(coordinate, &law, &scale);
+    }
+
+    /// The values that parameters have now; nothing else changes.
+    pub fn set_parameter_values(&mut self, values: &[f64]) {
+        self.model.parameters.iter_mut().zip(values).for_each(|(parameter, value)| parameter.value = *value);
     }
 
     /// What counts as a change of 1: L for positions, 1 for turnings, EI/L² and EI/L for wrenches. For the
@@ -358,6 +394,17 @@ impl System for Equilibrium {
         self.counts.factorisations += 1;
         self.factorised = false;
         self.evaluate(true)?;
+        self.lifted_by = 0.0;
+        if let Some(Lift { row, column }) = self.lift {
+            let mut largest = 0.0_f64;
+            self.tangent.for_each(|i, _, value| {
+                if i == row {
+                    largest = largest.max(value.abs())
+                }
+            });
+            self.lifted_by = largest;
+            self.tangent.add(row, column, largest);
+        }
         self.tangent.factorise()?;
         self.factorised = true;
         Ok(())
@@ -514,5 +561,36 @@ impl System for Equilibrium {
         let changed = self.resegment();
         self.restep(self.accuracy, true);
         changed
+    }
+}
+
+impl Liftable for Equilibrium {
+    fn lift_rows(&self) -> Vec<usize> {
+        // What stands in the rows of an inner state comes out of the elimination of those before it.
+        let inner: Vec<usize> =
+            self.layout.spans.iter().filter_map(|s| s.inner.last().map(|i| i.unknown)).collect();
+        (0..self.layout.interface)
+            .filter(|row| !inner.iter().any(|u| (*u..u + BLOCK).contains(row)))
+            .collect()
+    }
+
+    fn lift_columns(&self) -> usize {
+        self.layout.interface
+    }
+
+    fn set_lift(&mut self, lift: Option<Lift>) {
+        self.lift = lift;
+        self.factorised = false;
+    }
+
+    fn lifted_by(&self) -> f64 {
+        self.lifted_by
+    }
+
+    fn unit_step(&mut self, row: usize, step: &mut [f64]) {
+        self.r.fill(0.0);
+        self.gaps.iter_mut().flatten().for_each(|gap| *gap = [0.0; BLOCK]);
+        self.r[row] = -1.0;
+        self.newton_step(step);
     }
 }

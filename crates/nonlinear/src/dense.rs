@@ -136,6 +136,30 @@ impl Dense {
         }
         b.copy_from_slice(&self.work);
     }
+
+    /// Solves Aᵀ x = b in place: with P A = L U, forward with Uᵀ and back with Lᵀ, along the rows of both.
+    pub fn solve_transposed(&mut self, b: &mut [f64]) {
+        let n = self.n;
+        for i in 0..n {
+            let row = &self.a[i * n..(i + 1) * n];
+            let x = b[i] / row[i];
+            b[i] = x;
+            for (to, u) in b[i + 1..].iter_mut().zip(&row[i + 1..]) {
+                *to -= x * u;
+            }
+        }
+        for i in (1..n).rev() {
+            let x = b[i];
+            for (to, l) in b[..i].iter_mut().zip(&self.a[i * n..]) {
+                *to -= x * l;
+            }
+        }
+        self.work.clear();
+        self.work.extend_from_slice(b);
+        for (&i, &x) in self.order.iter().zip(&self.work) {
+            b[i] = x;
+        }
+    }
 }
 
 #[cfg(test)]
@@ -157,6 +181,29 @@ mod tests {
         dense.solve(&mut b);
         for i in 0..3 {
             assert!((b[i] - x[i]).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn solves_with_the_transpose_what_a_transposed_matrix_solves() {
+        for n in [1, 2, 7, 30] {
+            let mut matrices = [Dense::default(), Dense::default()];
+            matrices.iter_mut().for_each(|dense| dense.reset(n));
+            for i in 0..n {
+                for j in 0..n {
+                    let v = ((1 + i * i + 5 * i * j + 3 * j) as f64).sin() * [1.0, 1e6, 1e-3][i % 3];
+                    matrices[0].add(i, j, v);
+                    matrices[1].add(j, i, v);
+                }
+            }
+            let mut solutions = [(); 2].map(|()| (0..n).map(|i| (i as f64).cos()).collect::<Vec<_>>());
+            matrices.iter_mut().for_each(|dense| dense.factorise().unwrap());
+            matrices[0].solve_transposed(&mut solutions[0]);
+            matrices[1].solve(&mut solutions[1]);
+            let largest = solutions[1].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            for (x, y) in solutions[0].iter().zip(&solutions[1]) {
+                assert!((x - y).abs() < 1e-11 * largest);
+            }
         }
     }
 

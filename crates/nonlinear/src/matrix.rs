@@ -125,6 +125,14 @@ impl Matrix {
             Self::Sparse(sparse) => sparse.solve(b),
         }
     }
+
+    /// Solves Aᵀ x = b in place.
+    pub fn solve_transposed(&mut self, b: &mut [f64]) {
+        match self {
+            Self::Dense(dense) => dense.solve_transposed(b),
+            Self::Sparse(sparse) => sparse.solve_transposed(b),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -153,17 +161,22 @@ mod tests {
             assert_eq!(matches!(matrix, Matrix::Sparse(_)), n > LARGEST_DENSE);
             for _ in 0..2 {
                 fill(&mut matrix, n);
-                let mut b = vec![0.0; n];
-                matrix.for_each(|i, j, v| b[i] += v * (1.0 + j as f64));
+                let (mut b, mut c) = (vec![0.0; n], vec![0.0; n]);
+                matrix.for_each(|i, j, v| {
+                    b[i] += v * (1.0 + j as f64);
+                    c[j] += v * (1.0 + i as f64);
+                });
                 matrix.factorise().unwrap();
                 assert!(matrix.is_positive());
                 kept.clone_from(&matrix);
                 for matrix in [&mut matrix, &mut kept] {
                     assert_eq!(matrix.size(), n);
-                    let mut x = b.clone();
+                    let (mut x, mut y) = (b.clone(), c.clone());
                     matrix.solve(&mut x);
+                    matrix.solve_transposed(&mut y);
                     for (i, x) in x.iter().enumerate() {
                         assert!((x - 1.0 - i as f64).abs() < 1e-12 * n as f64);
+                        assert!((y[i] - 1.0 - i as f64).abs() < 1e-12 * n as f64);
                     }
                 }
             }

@@ -76,3 +76,33 @@ pub trait System {
     /// states stored before no longer fit.
     fn renew(&mut self) -> bool;
 }
+
+/// One entry of the tangent to which a number is added, so that it has an inverse where the tangent itself has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lift {
+    /// Number of the equation.
+    pub row: usize,
+    /// Number of the unknown.
+    pub column: usize,
+}
+
+/// A system whose tangent can be lifted: J' = J + σ e_row e_columnᵀ, with σ of the size of the row's entries.
+///
+/// Where J has lost one rank, J' has full rank if the column is one that the null vector moves and the row one that
+/// the left null vector does not miss. Bordered systems [J e_row; e_columnᵀ 0] are solved with J' alone.
+pub trait Liftable: System {
+    /// Equations that may be lifted.
+    fn lift_rows(&self) -> Vec<usize>;
+
+    /// Unknowns that may be lifted are the first ones; this is their number.
+    fn lift_columns(&self) -> usize;
+
+    /// Lifts the tangents that are made from now on, or leaves them as they are.
+    fn set_lift(&mut self, lift: Option<Lift>);
+
+    /// σ of the last tangent; zero without a lift.
+    fn lifted_by(&self) -> f64;
+
+    /// `step = J'⁻¹ e_row` with the last tangent.
+    fn unit_step(&mut self, row: usize, step: &mut [f64]);
+}

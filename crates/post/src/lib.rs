@@ -46,6 +46,15 @@ pub fn each_output(model: &Model, solution: &Solution) -> Vec<Result<OutputResul
     outputs_of(model, solution, model.outputs.iter())
 }
 
+/// An output that is not one of the model's.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn one_output(model: &Model, solution: &Solution, output: &Output) -> Result<OutputResult, PostError> {
+    let mut results = outputs_of(model, solution, std::iter::once(output));
+    results.pop().unwrap_or(Err(PostError::NotFinite { output: output.name.clone(), value: f64::NAN }))
+}
+
 /// The values of the targets' expressions.
 ///
 /// # Errors

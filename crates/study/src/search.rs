@@ -164,7 +164,7 @@ fn keep(prepared: &mut Prepared, outcome: &Outcome, options: &Options, found: &m
     found.push(solution);
 }
 
-fn same(a: &Solution, b: &Solution) -> bool {
+pub(crate) fn same(a: &Solution, b: &Solution) -> bool {
     let length = a.beams.iter().map(|beam| beam.length).fold(0.0, f64::max);
     let size = if length > 0.0 { length } else { 1.0 };
     let near = |p: &flexura_spatial::Pose, q: &flexura_spatial::Pose| {

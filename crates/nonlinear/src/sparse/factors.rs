@@ -1,9 +1,10 @@
 //! The numeric phase: fronts put together and eliminated up the tree, and the solves with what is kept of them.
 
-use super::front::{Bench, Front, TINY, eliminate, largest};
+use super::front::{Bench, Front, TINY, eliminate};
 use super::pattern::Pattern;
 use super::symbolic::Tree;
 use crate::Breakdown;
+use crate::lanes::{all_finite, dot, largest, subtract};
 
 /// What is kept of one front.
 #[derive(Clone, Copy, Debug)]
@@ -90,10 +91,10 @@ impl Scratch {
 
 /// Neighbouring columns of a child that are neighbours in the parent too.
 #[derive(Clone, Copy, Debug)]
-struct Run {
-    from: usize,
-    to: usize,
-    count: usize,
+pub(super) struct Run {
+    pub from: usize,
+    pub to: usize,
+    pub count: usize,
 }
 
 impl Factors {
@@ -319,6 +320,44 @@ impl Factors {
         }
     }
 
+    /// Overwrites `y` and writes A⁻ᵀ y to `x`: with P S A Q = L U, forward with Uᵀ by columns and back with Lᵀ by rows.
+    pub fn solve_transposed(&self, y: &mut [f64], x: &mut [f64], gathered: &mut Vec<f64>) {
+        for piece in &self.pieces {
+            let Piece { size, pivots, list, numbers } = *piece;
+            let columns = &self.columns[list..list + size];
+            gathered.clear();
+            gathered.extend(columns.iter().map(|&i| y[i as usize]));
+            for (k, row) in self.numbers[numbers..][..pivots * size].chunks_exact(size).enumerate() {
+                let value = gathered[k] / row[k];
+                gathered[k] = value;
+                subtract(&mut gathered[k + 1..], value, &row[k + 1..]);
+            }
+            for (&i, &value) in columns.iter().zip(gathered.iter()) {
+                y[i as usize] = value;
+            }
+        }
+        for piece in self.pieces.iter().rev() {
+            let Piece { size, pivots, list, numbers } = *piece;
+            let rows = &self.rows[list..list + size];
+            gathered.clear();
+            gathered.extend(self.columns[list..list + pivots].iter().map(|&i| y[i as usize]));
+            let (upper, lower) = self.numbers[numbers..].split_at(pivots * size);
+            if pivots > 0 {
+                for (row, &i) in lower.chunks_exact(pivots).zip(&rows[pivots..]) {
+                    subtract(gathered, x[i as usize], row);
+                }
+            }
+            for (k, row) in upper.chunks_exact(size).enumerate().rev() {
+                let (before, value) = gathered.split_at_mut(k);
+                subtract(before, value[0], &row[..k]);
+                x[rows[k] as usize] = value[0];
+            }
+        }
+        for (x, scale) in x.iter_mut().zip(&self.scale) {
+            *x *= scale;
+        }
+    }
+
     /// Numbers held.
     pub fn fill(&self) -> usize {
         self.numbers.len()
@@ -334,7 +373,7 @@ impl Factors {
     }
 }
 
-fn find_runs(columns: &[u32], column_at: &[u32], runs: &mut Vec<Run>) {
+pub(super) fn find_runs(columns: &[u32], column_at: &[u32], runs: &mut Vec<Run>) {
     runs.clear();
     for (from, &column) in columns.iter().enumerate() {
         let to = column_at[column as usize] as usize;
@@ -343,29 +382,4 @@ fn find_runs(columns: &[u32], column_at: &[u32], runs: &mut Vec<Run>) {
             _ => runs.push(Run { from, to, count: 1 }),
         }
     }
-}
-
-/// Zero times anything that is not finite is not a number.
-fn all_finite(v: &[f64]) -> bool {
-    let (chunks, rest) = v.as_chunks::<8>();
-    let mut lanes = [0.0; 8];
-    for chunk in chunks {
-        for i in 0..8 {
-            lanes[i] += 0.0 * chunk[i];
-        }
-    }
-    lanes.iter().all(|&v| v == 0.0) && rest.iter().all(|v| v.is_finite())
-}
-
-/// The scalar product, in eight sums side by side.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
-    let mut lanes = [0.0; 8];
-    for (a, b) in a.iter().zip(b) {
-        for i in 0..8 {
-            lanes[i] += a[i] * b[i];
-        }
-    }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7])) + rest
 }

@@ -5,10 +5,12 @@
 //! in registers. A column whose best complete row is too weak beside the rest is set aside, tried again once
 //! others are gone, and at last left over for the parent.
 
+use crate::lanes::largest;
+
 /// Columns of a panel.
 const PANEL: usize = 32;
 /// Rows of a tile.
-const ROWS: usize = 4;
+pub(super) const ROWS: usize = 4;
 /// A pivot is at least this part of the largest number in its column, which bounds growth by 1 + 1 / this.
 const THRESHOLD: f64 = 0.01;
 /// Below this part of the largest number about, a pivot is no pivot.
@@ -158,20 +160,6 @@ fn eliminate_panel(front: &mut Front, first: usize, width: usize, panel: &mut [f
     k
 }
 
-/// The largest magnitude; what is not a number does not count.
-#[inline(always)]
-pub(super) fn largest(v: &[f64]) -> f64 {
-    let (chunks, rest) = v.as_chunks::<8>();
-    let mut lanes = [0.0_f64; 8];
-    for chunk in chunks {
-        for i in 0..8 {
-            let x = chunk[i].abs();
-            lanes[i] = if x > lanes[i] { x } else { lanes[i] };
-        }
-    }
-    lanes.iter().chain(rest).fold(0.0, |m, x| if x.abs() > m { x.abs() } else { m })
-}
-
 /// Takes the pivots of a panel through the columns to its right.
 #[inline(always)]
 fn update<const C: usize>(
@@ -241,7 +229,7 @@ fn update<const C: usize>(
 
 /// One tile of L U.
 #[inline(always)]
-fn product<const C: usize>(l: &[[f64; ROWS]], u: &[[f64; C]]) -> [[f64; C]; ROWS] {
+pub(super) fn product<const C: usize>(l: &[[f64; ROWS]], u: &[[f64; C]]) -> [[f64; C]; ROWS] {
     let mut sum = [[0.0; C]; ROWS];
     for (l, u) in l.iter().zip(u) {
         for r in 0..ROWS {

@@ -11,21 +11,26 @@
 //! It is deterministic: equal entries in an equal pattern give equal bits, on any x86-64 processor, and the sign of
 //! the determinant is that of an exact count of exchanges.
 //!
-//! Absent: several threads, factors out of memory, symmetric factors at half the cost, orderings of graphs
-//! without places better than cuts by distance, columns scaled, estimates of the condition, and static pivoting;
-//! a matrix with many weak pivots moves them up the tree at the price of larger fronts.
+//! Symmetric matrices have factors of their own at half the cost (`symmetric/`).
+//!
+//! Absent: several threads, factors out of memory, orderings of graphs without places better than cuts by distance,
+//! columns scaled, estimates of the condition, and static pivoting; a matrix with many weak pivots moves them up the
+//! tree at the price of larger fronts.
 
 mod factors;
 mod front;
 mod ordering;
 mod pattern;
 mod symbolic;
+mod symmetric;
 
 use crate::Breakdown;
 use factors::{Factors, Scratch};
 use pattern::Pattern;
 use std::sync::Arc;
 use symbolic::Tree;
+
+pub use symmetric::SparseSymmetric;
 
 /// Solutions that leave a larger part of a row than this are refined. Lattices of 10,000 beams leave 1e-12 to 1e-11
 /// by the weakest pivots that are let pass, and 1e-15 after one step.
@@ -75,27 +80,7 @@ impl Clone for Sparse {
 impl Sparse {
     /// Makes it an `n` x `n` matrix of zeros whose unknowns come in `blocks`, and forgets which entries there are.
     pub fn arrange(&mut self, n: usize, blocks: &[BlockPlace]) {
-        self.blocks.clear();
-        let mut sorted = blocks.to_vec();
-        sorted.sort_by_key(|block| block.first);
-        let mut next = 0;
-        // Each unknown is in one block, whatever was given.
-        for block in sorted {
-            let (first, end) = (block.first.clamp(next, n), (block.first + block.count).min(n));
-            if next < first {
-                self.blocks.push(BlockPlace { first: next, count: first - next, place: block.place });
-            }
-            if first < end {
-                self.blocks.push(BlockPlace { first, count: end - first, place: block.place });
-                next = end;
-            } else {
-                next = first;
-            }
-        }
-        if next < n {
-            let place = self.blocks.last().map_or([0.0; 3], |block| block.place);
-            self.blocks.push(BlockPlace { first: next, count: n - next, place });
-        }
+        cover(n, blocks, &mut self.blocks);
         self.pattern.arrange(n);
         self.tree = None;
         self.factors.clear();
@@ -147,6 +132,21 @@ impl Sparse {
     /// Solves in place, with one step of refinement where weak pivots have spoilt the solution and the entries are
     /// still those that were factorised. Without factors the result is not a number.
     pub fn solve(&mut self, b: &mut [f64]) {
+        self.solve_by(b, Factors::solve, |pattern, x, b, r, _| residual(pattern, x, b, r));
+    }
+
+    /// Solves Aᵀ x = b in place, like [`Sparse::solve`].
+    pub fn solve_transposed(&mut self, b: &mut [f64]) {
+        self.solve_by(b, Factors::solve_transposed, residual_transposed);
+    }
+
+    #[inline(always)]
+    fn solve_by(
+        &mut self,
+        b: &mut [f64],
+        solve: impl Fn(&Factors, &mut [f64], &mut [f64], &mut Vec<f64>),
+        residual: impl Fn(&Pattern, &[f64], &[f64], &mut [f64], &mut Vec<f64>) -> f64,
+    ) {
         if !self.factors.is_complete(self.size()) {
             b.fill(f64::NAN);
             return;
@@ -156,9 +156,9 @@ impl Sparse {
         y.extend_from_slice(b);
         x.resize(b.len(), 0.0);
         correction.resize(b.len(), 0.0);
-        self.factors.solve(y, x, gathered);
-        if self.current && residual(&self.pattern, x, b, y) > REFINED {
-            self.factors.solve(y, correction, gathered);
+        solve(&self.factors, y, x, gathered);
+        if self.current && residual(&self.pattern, x, b, y, gathered) > REFINED {
+            solve(&self.factors, y, correction, gathered);
             for (x, correction) in x.iter_mut().zip(correction) {
                 *x += *correction;
             }
@@ -192,6 +192,30 @@ impl Sparse {
     }
 }
 
+/// Each unknown in one block, whatever was given, in order.
+fn cover(n: usize, blocks: &[BlockPlace], whole: &mut Vec<BlockPlace>) {
+    whole.clear();
+    let mut sorted = blocks.to_vec();
+    sorted.sort_by_key(|block| block.first);
+    let mut next = 0;
+    for block in sorted {
+        let (first, end) = (block.first.clamp(next, n), (block.first + block.count).min(n));
+        if next < first {
+            whole.push(BlockPlace { first: next, count: first - next, place: block.place });
+        }
+        if first < end {
+            whole.push(BlockPlace { first, count: end - first, place: block.place });
+            next = end;
+        } else {
+            next = first;
+        }
+    }
+    if next < n {
+        let place = whole.last().map_or([0.0; 3], |block| block.place);
+        whole.push(BlockPlace { first: next, count: n - next, place });
+    }
+}
+
 /// r = b - A x, and how large it is beside what it is a difference of: the largest |r| / (|A| |x| + |b|) of a row.
 fn residual(pattern: &Pattern, x: &[f64], b: &[f64], r: &mut [f64]) -> f64 {
     let mut worst = 0.0_f64;
@@ -209,6 +233,23 @@ fn residual(pattern: &Pattern, x: &[f64], b: &[f64], r: &mut [f64]) -> f64 {
         }
     }
     worst
+}
+
+/// [`residual`] of Aᵀ x = b.
+fn residual_transposed(pattern: &Pattern, x: &[f64], b: &[f64], r: &mut [f64], sizes: &mut Vec<f64>) -> f64 {
+    r.copy_from_slice(b);
+    sizes.clear();
+    sizes.extend(b.iter().map(|b| b.abs()));
+    for (i, &x) in x.iter().enumerate() {
+        let (columns, values) = pattern.row(i);
+        for (&j, &value) in columns.iter().zip(values) {
+            let product = value * x;
+            r[j as usize] -= product;
+            sizes[j as usize] += product.abs();
+        }
+    }
+    let parts = r.iter().zip(sizes.iter()).filter(|(_, size)| **size > 0.0).map(|(r, size)| r.abs() / size);
+    parts.fold(0.0, f64::max)
 }
 
 fn bytes<T>(v: &Vec<T>) -> usize {

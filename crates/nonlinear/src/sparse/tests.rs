@@ -1,7 +1,7 @@
 use super::*;
 use crate::Dense;
 
-mod examples;
+pub(in crate::sparse) mod examples;
 mod growth;
 
 use examples::{Example, Numbers, beams, lattice, network};
@@ -33,8 +33,11 @@ fn compare(example: &Example) -> Sparse {
     let x: Vec<f64> = (0..n).map(|_| numbers.next()).collect();
     let mut b = example.times(&x);
     sparse.solve(&mut b);
-    for (b, x) in b.iter().zip(&x) {
+    let mut c = example.transposed().times(&x);
+    sparse.solve_transposed(&mut c);
+    for ((b, c), x) in b.iter().zip(&c).zip(&x) {
         assert!((b - x).abs() < 1e-14 * condition, "{b} for {x}, condition {condition:.1e}");
+        assert!((c - x).abs() < 1e-14 * condition, "{c} for {x}, condition {condition:.1e}");
     }
     sparse
 }
@@ -272,6 +275,13 @@ fn weak_pivots_are_mended_by_one_refinement() {
     sparse.solve(&mut solution);
     let mut r = vec![0.0; example.n];
     assert!(residual(&sparse.pattern, &solution, &b, &mut r) < 1e-14);
+    let mut turned = example.transposed().times(&x);
+    let right = turned.clone();
+    sparse.solve_transposed(&mut turned);
+    assert!(residual_transposed(&sparse.pattern, &turned, &right, &mut r, &mut Vec::new()) < 1e-14);
+    let mut other = example.transposed().sparse();
+    other.pattern.settle();
+    assert!(residual(&other.pattern, &turned, &right, &mut r) < 1e-14);
     // Without it.
     sparse.current = false;
     let mut rough = b.clone();

@@ -1,8 +1,18 @@
-//! Paths of equilibria in one parameter.
+//! Paths of equilibria in one parameter: `problem` is the mechanism as the path's follower sees it, `leg` follows one branch one
+//! way, `record` makes points of states, `branches` follows what is met, `search` finds what hangs together with nothing,
+//! `critical` follows critical points in a second parameter.
 
-use crate::{Family, Options, ProblemError};
-use flexura_model::{BuckleStudy, Model, TraceStudy};
-use flexura_solution::{Buckling, Trace};
+mod branches;
+mod buckle;
+mod critical;
+mod leg;
+mod line;
+mod problem;
+mod record;
+mod search;
+
+pub use branches::trace;
+pub use buckle::buckle;
 
 /// How far a trace has come.
 #[derive(Clone, Copy, Debug)]
@@ -13,31 +23,4 @@ pub struct TraceProgress {
     pub points: usize,
     /// Value of the parameter at the last of them, SI.
     pub parameter: f64,
-}
-
-/// Follows equilibria.
-///
-/// # Errors
-/// A model that describes no solvable mechanism.
-pub fn trace(
-    _model: &Model,
-    _family: &mut dyn Family,
-    _study: &TraceStudy,
-    _options: &Options,
-    _progress: &mut dyn FnMut(TraceProgress),
-) -> Result<Trace, ProblemError> {
-    Err(ProblemError::new("study", "cannot be done", ""))
-}
-
-/// Critical loads of the linearised problem.
-///
-/// # Errors
-/// A model that describes no solvable mechanism.
-pub fn buckle(
-    _model: &Model,
-    _family: &mut dyn Family,
-    _study: &BuckleStudy,
-    _options: &Options,
-) -> Result<Buckling, ProblemError> {
-    Err(ProblemError::new("study", "cannot be done", ""))
 }

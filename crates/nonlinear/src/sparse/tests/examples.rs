@@ -37,6 +37,10 @@ impl Example {
         sparse
     }
 
+    pub fn transposed(&self) -> Self {
+        Self { entries: self.entries.iter().map(|&(i, j, v)| (j, i, v)).collect(), ..self.clone() }
+    }
+
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
         let mut b = vec![0.0; self.n];
         for &(i, j, v) in &self.entries {

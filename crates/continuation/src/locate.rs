@@ -1,0 +1,325 @@
+//! Where exactly a path folds or meets another.
+
+use crate::corrector::{Miss, between};
+use crate::multiple::{From, locate_multiple};
+use crate::problem::{Point, Problem, Tangent};
+use crate::reduced::{Surface, Value};
+use crate::walker::Stall;
+use flexura_nonlinear::System;
+
+/// How branches cross at a branch point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Crossing {
+    /// The other branch turns back in the parameter; it exists where the present branch has more unstable directions.
+    SupercriticalPitchfork,
+    /// The other branch turns back in the parameter; it exists where the present branch has fewer unstable directions.
+    SubcriticalPitchfork,
+    /// The other branch turns back in the parameter, and it is not known which side is more stable.
+    Pitchfork,
+    /// Neither branch turns back.
+    Transcritical,
+    /// So many directions are critical at once.
+    Multiple(usize),
+}
+
+/// A fold or a branch point.
+#[derive(Clone, Debug)]
+pub struct Special {
+    /// How branches cross; None at a fold.
+    pub crossing: Option<Crossing>,
+    /// Where it is.
+    pub point: Point,
+    /// Null directions of the tangent.
+    pub kernel: Vec<Vec<f64>>,
+    /// Directions of the other branches.
+    pub branches: Vec<Tangent>,
+    /// Part of the step at which it lies.
+    pub part: f64,
+    /// Of a multiple point: from where it is found again.
+    pub(crate) start: Option<Start>,
+}
+
+/// A point of the path before a multiple point.
+#[derive(Clone, Debug)]
+pub(crate) struct Start {
+    pub point: Point,
+    pub tangent: Tangent,
+    pub length: f64,
+    pub tolerance: f64,
+}
+
+/// What is known at the two ends of the step that holds it.
+pub(crate) struct Bracket<'a> {
+    pub before: &'a Point,
+    pub after: &'a Point,
+    /// The path's direction, at the start of the step.
+    pub tangent: &'a Tangent,
+    /// Unstable directions at both ends.
+    pub index: [Option<usize>; 2],
+}
+
+/// Corrections of ξ and p.
+const MOST: usize = 12;
+/// Size of a correction from which the next is below round-off.
+const ENOUGH: f64 = 1e-8;
+/// How far differences reach: the size of the change of the state, and of the parameter.
+const STATE: f64 = 1e-3;
+const PARAMETER: f64 = 1e-3;
+/// μ, as a part of what the step changes it by, that counts as nothing.
+const NOTHING: f64 = 1e-6;
+/// Curvature of the other branch's parameter, as a part of the mixed derivative, that counts as none.
+const SYMMETRIC: f64 = 1e-5;
+
+/// First and second derivatives of μ, and the third along ξ.
+pub(crate) struct Shape {
+    pub value: Value,
+    pub xi_xi: f64,
+    pub xi_p: f64,
+    pub p_p: f64,
+    pub xi_xi_xi: f64,
+}
+
+/// Steps of differences along ξ and p.
+pub(crate) fn widths<P: Problem>(problem: &mut P, value: &Value) -> [f64; 2] {
+    [STATE / problem.system().size(&value.along[0]).max(1e-6), PARAMETER]
+}
+
+impl Surface {
+    /// Derivatives at a point of the surface, by differences of the first ones.
+    pub(crate) fn shape<P: Problem>(
+        &self,
+        problem: &mut P,
+        value: Value,
+        along_p: bool,
+    ) -> Result<Shape, Miss> {
+        let [dx, dp] = widths(problem, &value);
+        let up = self.at(problem, &value, [dx, 0.0, 0.0])?;
+        let down = self.at(problem, &value, [-dx, 0.0, 0.0])?;
+        let mut p_p = 0.0;
+        if along_p {
+            let more = self.at(problem, &value, [0.0, dp, 0.0])?;
+            let less = self.at(problem, &value, [0.0, -dp, 0.0])?;
+            p_p = (more.slope[1] - less.slope[1]) / (2.0 * dp);
+        }
+        value.point.restore(problem)?;
+        Ok(Shape {
+            xi_xi: (up.slope[0] - down.slope[0]) / (2.0 * dx),
+            xi_p: (up.slope[1] - down.slope[1]) / (2.0 * dx),
+            xi_xi_xi: (up.slope[0] - 2.0 * value.slope[0] + down.slope[0]) / (dx * dx),
+            p_p,
+            value,
+        })
+    }
+}
+
+/// The fold or the simple branch point between two points of a path. None where there is none of that kind.
+pub(crate) fn locate<P: Problem>(
+    problem: &mut P,
+    bracket: &Bracket<'_>,
+    fold: bool,
+) -> Result<Option<Special>, Miss> {
+    let whole = between(problem, bracket.before, bracket.after);
+    bracket.after.restore(problem)?;
+    let Some(surface) = Surface::choose(problem, false) else { return Ok(None) };
+    bracket.before.restore(problem)?;
+    let first = surface.settle(problem)?;
+    bracket.after.restore(problem)?;
+    let second = surface.settle(problem)?;
+    let part = (first.slope[0] / (first.slope[0] - second.slope[0])).clamp(0.02, 0.98);
+    let part = if part.is_finite() { part } else { 0.5 };
+    // Start between the two.
+    bracket.before.restore(problem)?;
+    let inside: Vec<f64> = whole.step.iter().map(|v| v * part).collect();
+    problem.system().retract(&inside);
+    let second_parameter = problem.parameters()[1];
+    let guess = bracket.before.parameters[0] + part * whole.parameter;
+    problem.set_parameters([guess, second_parameter])?;
+    let value = surface.settle(problem)?;
+    let reach = whole.size(problem.system());
+    match solve(problem, &surface, value, fold, (bracket.before, reach))? {
+        Some(shape) => finish(problem, bracket, &whole, shape, fold),
+        None => Ok(None),
+    }
+}
+
+/// Newton on the surface for the fold or branch point, which must not lie further than a few times `reach` from `home`.
+fn solve<P: Problem>(
+    problem: &mut P,
+    surface: &Surface,
+    mut value: Value,
+    fold: bool,
+    (home, reach): (&Point, f64),
+) -> Result<Option<Shape>, Miss> {
+    let mut last = false;
+    for _ in 0..MOST {
+        let shape = surface.shape(problem, value, !fold)?;
+        if last {
+            return Ok(Some(shape));
+        }
+        let [mu, xi, p] = [shape.value.mu, shape.value.slope[0], shape.value.slope[1]];
+        // Newton for (μ, μ_ξ) = 0, or for (μ_ξ, μ_p) = 0.
+        let (matrix, right) = if fold {
+            ([[xi, p], [shape.xi_xi, shape.xi_p]], [mu, xi])
+        } else {
+            ([[shape.xi_xi, shape.xi_p], [shape.xi_p, shape.p_p]], [xi, p])
+        };
+        let determinant = matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
+        let mut way = [
+            -(right[0] * matrix[1][1] - right[1] * matrix[0][1]) / determinant,
+            -(right[1] * matrix[0][0] - right[0] * matrix[1][0]) / determinant,
+        ];
+        let mut size = (way[0] * problem.system().size(&shape.value.along[0])).abs().max(way[1].abs());
+        if !size.is_finite() {
+            return Ok(None);
+        }
+        if size > reach {
+            way.iter_mut().for_each(|w| *w *= reach / size);
+            size = reach;
+        }
+        value = surface.at(problem, &shape.value, [way[0], way[1], 0.0])?;
+        last = size < ENOUGH;
+        if between(problem, home, &value.point).size(problem.system()) > 2.5 * reach {
+            return Ok(None);
+        }
+    }
+    Ok(None)
+}
+
+/// How far a point may move when the discretisation changes.
+const NEAR: f64 = 0.05;
+
+/// The same fold or branch point after the problem's discretisation has changed, but not its layout.
+///
+/// # Errors
+/// It is not found again.
+pub fn sharpen<P: Problem>(problem: &mut P, special: &Special) -> Result<Special, Stall> {
+    let found = match &special.start {
+        Some(Start { point, tangent, length, tolerance }) => {
+            let from = From { point, tangent, length: *length, tolerance: *tolerance };
+            locate_multiple(problem, &from, special.kernel.len())
+        }
+        None => again(problem, special),
+    };
+    match found {
+        Ok(Some(found)) => Ok(Special { part: special.part, ..found }),
+        _ => Err(Stall::Short),
+    }
+}
+
+fn again<P: Problem>(problem: &mut P, special: &Special) -> Result<Option<Special>, Miss> {
+    let fold = special.crossing.is_none();
+    special.point.restore(problem)?;
+    let Some(surface) = Surface::choose(problem, false) else { return Ok(None) };
+    special.point.restore(problem)?;
+    let value = surface.settle(problem)?;
+    let Some(shape) = solve(problem, &surface, value, fold, (&special.point, NEAR))? else { return Ok(None) };
+    let value = &shape.value;
+    let system = problem.system();
+    let mut branches = Vec::new();
+    if let Some(before) = special.branches.first() {
+        let Some(directions) = directions(&shape) else { return Ok(None) };
+        let along = |t: &Tangent| t.product(system, &before.step, before.parameter);
+        let mut best = tangents(system, value, &directions)
+            .into_iter()
+            .max_by(|a, b| along(a).abs().total_cmp(&along(b).abs()))
+            .unwrap_or_default();
+        if along(&best) < 0.0 {
+            best.scale(-1.0);
+        }
+        branches.push(best);
+    }
+    Ok(Some(Special {
+        point: value.point.clone(),
+        kernel: vec![value.along[0].clone()],
+        branches,
+        ..special.clone()
+    }))
+}
+
+/// Directions (ξ, p) as directions of the path.
+fn tangents<S: flexura_nonlinear::Liftable>(
+    system: &S,
+    value: &Value,
+    directions: &[[f64; 2]; 2],
+) -> Vec<Tangent> {
+    directions
+        .iter()
+        .map(|[xi, p]| {
+            let step = value.along[0].iter().zip(&value.along[1]).map(|(x, v)| xi * x + p * v).collect();
+            Tangent { step, parameter: *p }.normalised(system)
+        })
+        .collect()
+}
+
+/// Is it what was looked for, and how do branches cross there?
+fn finish<P: Problem>(
+    problem: &mut P,
+    bracket: &Bracket<'_>,
+    whole: &Tangent,
+    shape: Shape,
+    fold: bool,
+) -> Result<Option<Special>, Miss> {
+    let value = &shape.value;
+    let gone = between(problem, bracket.before, &value.point);
+    let system = problem.system();
+    let square = whole.product(system, &whole.step, whole.parameter);
+    let part = whole.product(system, &gone.step, gone.parameter) / square;
+    if !(-0.25..=1.25).contains(&part) {
+        return Ok(None);
+    }
+    let kernel = vec![value.along[0].clone()];
+    if fold {
+        let point = value.point.clone();
+        return Ok(Some(Special { crossing: None, point, kernel, branches: Vec::new(), part, start: None }));
+    }
+    // The step's change of μ if it left the path by its own length.
+    let scale = (shape.xi_p.abs() + shape.xi_xi.abs()).max(1e-300) * square;
+    if value.mu.abs() > NOTHING * scale.max(1e-9) {
+        return Ok(None);
+    }
+    let Some(directions) = directions(&shape) else { return Ok(None) };
+    let mut tangents = tangents(system, value, &directions);
+    // The present branch's own direction is the one nearest to the step.
+    let nearness = |t: &Tangent| t.product(system, &bracket.tangent.step, bracket.tangent.parameter).abs();
+    let own = if nearness(&tangents[0]) >= nearness(&tangents[1]) { 0 } else { 1 };
+    tangents.swap_remove(own);
+    let other = directions[1 - own];
+    let crossing = if other[1].abs() <= SYMMETRIC * other[0].abs() {
+        // p = p* - μ_ξξξ/(6 μ_ξp) ξ² on the other branch.
+        let bends = -shape.xi_xi_xi / shape.xi_p;
+        match bracket.index {
+            [Some(a), Some(b)] if a != b => {
+                let towards_more =
+                    (bracket.after.parameters[0] - bracket.before.parameters[0]) * (b as f64 - a as f64);
+                if bends * towards_more > 0.0 {
+                    Crossing::SupercriticalPitchfork
+                } else {
+                    Crossing::SubcriticalPitchfork
+                }
+            }
+            _ => Crossing::Pitchfork,
+        }
+    } else {
+        Crossing::Transcritical
+    };
+    Ok(Some(Special {
+        crossing: Some(crossing),
+        point: value.point.clone(),
+        kernel,
+        branches: tangents,
+        part,
+        start: None,
+    }))
+}
+
+/// The two directions (ξ, p) in which μ_ξξ ξ² + 2 μ_ξp ξ p + μ_pp p² vanishes.
+fn directions(shape: &Shape) -> Option<[[f64; 2]; 2]> {
+    let (a, b, c) = (shape.xi_xi, shape.xi_p, shape.p_p);
+    let inside = b * b - a * c;
+    if inside.is_nan() || inside <= 0.0 {
+        return None;
+    }
+    // (a ξ + b p)² = (b² - ac) p²; the root without cancellation first.
+    let q = -(b + b.signum() * inside.sqrt());
+    Some([[q, a], [c, q]])
+}

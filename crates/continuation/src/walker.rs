@@ -1,0 +1,565 @@
+//! Along a path, step by step.
+//!
+//! A step is predicted along the path's tangent, bent as it bent before, and must prove that it stays on the path: the
+//! prediction is near, Newton contracts at once, and the direction changes little. Between two points the sign of det J, the sign of
+//! the parameter's rate and the count of unstable directions tell what was passed; what cannot be told apart is looked at
+//! again in shorter steps.
+
+use crate::corrector::{Limits, Miss, between, correct, settle};
+use crate::locate::{Bracket, Special, locate};
+use crate::multiple::{From, locate_multiple};
+use crate::problem::{Point, Problem, Refusal, Tangent, slope};
+use flexura_nonlinear::{Breakdown, System};
+
+/// How a path is followed.
+#[derive(Clone, Copy, Debug)]
+pub struct WalkOptions {
+    /// Size of the last correction of a point.
+    pub tolerance: f64,
+    /// Largest size of a step of the state.
+    pub largest_change: f64,
+    /// Largest step of the parameter.
+    pub largest_parameter: f64,
+    /// Shortest step, as a part of the largest.
+    pub shortest: f64,
+    /// First correction, as a part of the step, at which a step is refused, and what is aimed at.
+    pub farthest: f64,
+    /// What is aimed at.
+    pub aim: f64,
+    /// Smallest cosine between the directions of two neighbouring points, and what is aimed at.
+    pub least_cosine: f64,
+    /// Cosine that is aimed at.
+    pub aimed_cosine: f64,
+}
+
+impl Default for WalkOptions {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-10,
+            largest_change: 0.25,
+            largest_parameter: 0.025,
+            shortest: 1e-7,
+            farthest: 0.3,
+            aim: 0.05,
+            least_cosine: 0.75,
+            aimed_cosine: 0.94,
+        }
+    }
+}
+
+/// A regular point of a path.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// Where it is.
+    pub point: Point,
+    /// The path's direction, of length one.
+    pub tangent: Tangent,
+    /// Is det J positive? Only comparable between points of one layout.
+    pub positive: bool,
+    /// Number of unstable directions, if decided.
+    pub index: Option<usize>,
+    /// Way along the path.
+    pub arc: f64,
+    slope: Vec<f64>,
+}
+
+/// What a step came to.
+#[derive(Clone, Debug)]
+pub enum Advance {
+    /// A new point, and what was passed on the way, in order.
+    To(Vec<Special>),
+    /// The path cannot be followed further.
+    Stalled(Stall),
+}
+
+/// Why a path cannot be followed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stall {
+    /// Steps became too short.
+    Short,
+    /// Beyond, the parameter has no sound values.
+    Parameter(String),
+}
+
+/// Counts of a walk.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WalkWork {
+    /// Steps taken.
+    pub taken: usize,
+    /// Steps refused.
+    pub refused: usize,
+}
+
+/// Follows a path.
+#[derive(Clone, Debug)]
+pub struct Walker {
+    options: WalkOptions,
+    here: Place,
+    /// The direction at the point before, and the step between.
+    before: Option<(Tangent, f64)>,
+    /// Length of the next step.
+    width: f64,
+    /// The last accepted step, by length and direction, for points between.
+    last: Option<(Place, f64)>,
+    is_tangent_here: bool,
+    work: WalkWork,
+}
+
+/// How often the way between two points is halved at most, to tell apart what lies on it.
+const DEPTH: usize = 9;
+
+impl Walker {
+    /// Starts at the present solution, towards larger (`1.0`) or smaller (`-1.0`) parameters.
+    ///
+    /// # Errors
+    /// The tangent cannot be had there, or no solution is near.
+    pub fn start<P: Problem>(problem: &mut P, options: WalkOptions, direction: f64) -> Result<Self, Refusal> {
+        settle(problem, options.tolerance).map_err(|miss| match miss {
+            Miss::Refused(refusal) => refusal,
+            _ => Refusal::Broken(Breakdown::Singular),
+        })?;
+        problem.system().linearise()?;
+        let (slope, mut tangent) = direction_here(problem)?;
+        if tangent.parameter * direction < 0.0 {
+            tangent.scale(-1.0);
+        }
+        let here = Place {
+            point: Point::here(problem),
+            positive: problem.system().orientation(),
+            index: problem.index(),
+            arc: 0.0,
+            tangent,
+            slope,
+        };
+        let width = 0.5 * largest(problem.system(), &here.tangent, &options);
+        Ok(Self {
+            options,
+            here,
+            before: None,
+            width,
+            last: None,
+            is_tangent_here: true,
+            work: WalkWork::default(),
+        })
+    }
+
+    /// Starts from a branch point along one of its branches (`sense` ±1): the first point beyond it.
+    ///
+    /// # Errors
+    /// No point of that branch is found.
+    pub fn switch<P: Problem>(
+        problem: &mut P,
+        options: WalkOptions,
+        from: &Point,
+        branch: &Tangent,
+        sense: f64,
+    ) -> Result<Self, Stall> {
+        let mut tangent = branch.clone();
+        tangent.scale(sense);
+        from.restore(problem).map_err(stall)?;
+        let mut width = 0.6 * largest(problem.system(), &tangent, &options);
+        let mut worst = Stall::Short;
+        for _ in 0..14 {
+            match first_point(problem, &options, from, &tangent, width) {
+                Ok(here) => {
+                    return Ok(Self {
+                        options,
+                        here,
+                        before: None,
+                        width,
+                        last: None,
+                        is_tangent_here: true,
+                        work: WalkWork { taken: 1, refused: 0 },
+                    });
+                }
+                Err(Miss::Refused(Refusal::Parameter(why))) => worst = Stall::Parameter(why),
+                Err(_) => {}
+            }
+            width *= 0.5;
+        }
+        Err(worst)
+    }
+
+    /// The present point.
+    pub fn here(&self) -> &Place {
+        &self.here
+    }
+
+    /// What was done.
+    pub fn work(&self) -> WalkWork {
+        self.work
+    }
+
+    /// Tells that the problem was used for something else: its last tangent is not that of the present point.
+    pub fn disturbed(&mut self) {
+        self.is_tangent_here = false;
+    }
+
+    /// Brings the present point back to the path after the problem's discretisation has changed; `tangent` is the path's
+    /// direction in the layout that is now in force, if that is another one.
+    ///
+    /// # Errors
+    /// No point is found near.
+    pub fn polish<P: Problem>(&mut self, problem: &mut P, tangent: Option<Tangent>) -> Result<(), Stall> {
+        if let Some(tangent) = tangent {
+            self.here.tangent = tangent.normalised(problem.system());
+            self.here.point = Point::here(problem);
+            self.before = None;
+            self.last = None;
+        }
+        self.is_tangent_here = false;
+        self.here.point.restore(problem).map_err(stall)?;
+        let limits =
+            Limits { tolerance: self.options.tolerance, farthest: 1.0, reach: self.options.largest_change };
+        let polished = correct(problem, &self.here.tangent, None, &limits);
+        polished.map_err(|_| Stall::Short)?;
+        problem.system().linearise().map_err(|b| stall(b.into()))?;
+        let (slope, mut tangent) = direction_here(problem).map_err(stall)?;
+        let ahead = &self.here.tangent;
+        if tangent.product(problem.system(), &ahead.step, ahead.parameter) < 0.0 {
+            tangent.scale(-1.0);
+        }
+        self.here = Place {
+            point: Point::here(problem),
+            positive: problem.system().orientation(),
+            index: problem.index(),
+            arc: self.here.arc,
+            tangent,
+            slope,
+        };
+        self.is_tangent_here = true;
+        Ok(())
+    }
+
+    /// Where a point lies along the last step, as a part of it.
+    pub fn part_of<P: Problem>(&self, problem: &mut P, point: &Point) -> f64 {
+        let Some((left, width)) = &self.last else { return 1.0 };
+        let to = between(problem, &left.point, point);
+        left.tangent.product(problem.system(), &to.step, to.parameter) / width
+    }
+
+    /// The way along the path at a part of the last step.
+    pub fn arc_at(&self, part: f64) -> f64 {
+        self.last.as_ref().map_or(self.here.arc, |(left, width)| left.arc + part * width)
+    }
+
+    /// The size of the correction that takes a step `u = -J⁻¹ r` of the present point back to the plane across the path: what an
+    /// error of the residual does to the point.
+    pub fn across<S: flexura_nonlinear::Liftable>(&self, system: &S, u: &[f64]) -> f64 {
+        let Place { tangent, slope, .. } = &self.here;
+        let dp = -tangent.product(system, u, 0.0) / tangent.product(system, slope, 1.0);
+        let step: Vec<f64> = u.iter().zip(slope).map(|(u, v)| u + v * dp).collect();
+        system.size(&step).max(dp.abs())
+    }
+
+    /// One step along the path. The problem stands at the new point afterwards.
+    pub fn advance<P: Problem>(&mut self, problem: &mut P) -> Advance {
+        let mut parameter_trouble = None;
+        loop {
+            let cap = largest(problem.system(), &self.here.tangent, &self.options);
+            self.width = self.width.min(cap);
+            if self.width < self.options.shortest * cap {
+                let _ = self.here.point.restore(problem);
+                return Advance::Stalled(parameter_trouble.map_or(Stall::Short, Stall::Parameter));
+            }
+            let width = self.width;
+            match self.try_step(problem, width) {
+                Ok((place, growth)) => match self.passed(problem, &self.here, &place, DEPTH) {
+                    Ok(specials) => {
+                        let left = std::mem::replace(&mut self.here, place);
+                        self.before = Some((left.tangent.clone(), width));
+                        self.last = Some((left, width));
+                        self.width = (width * growth).min(cap);
+                        self.work.taken += 1;
+                        let disturbed = !specials.is_empty();
+                        if disturbed {
+                            self.is_tangent_here = false;
+                        }
+                        if self.here.point.restore(problem).is_err() {
+                            return Advance::Stalled(Stall::Short);
+                        }
+                        return Advance::To(specials);
+                    }
+                    Err(()) => {
+                        self.is_tangent_here = false;
+                        self.width = 0.4 * width;
+                    }
+                },
+                Err((miss, factor)) => {
+                    if let Miss::Refused(Refusal::Parameter(why)) = miss {
+                        parameter_trouble = Some(why);
+                    }
+                    self.is_tangent_here = false;
+                    self.width = factor * width;
+                }
+            }
+            self.work.refused += 1;
+        }
+    }
+
+    /// The point of the last step at `part` of its length from its start: for what lies between two points.
+    ///
+    /// # Errors
+    /// There was no step, or no point is found there.
+    pub fn between<P: Problem>(&mut self, problem: &mut P, part: f64) -> Result<Place, Stall> {
+        self.is_tangent_here = false;
+        let Some((left, _)) = &self.last else { return Err(Stall::Short) };
+        self.place_between(problem, left, &self.here, part).map_err(|miss| match miss {
+            Miss::Refused(refusal) => stall(refusal),
+            _ => Stall::Short,
+        })
+    }
+
+    /// The point of the last step at which the parameter has a value that lies between its ends.
+    ///
+    /// # Errors
+    /// There was no step, or no point is found there.
+    pub fn at_parameter<P: Problem>(&mut self, problem: &mut P, value: f64) -> Result<Place, Stall> {
+        self.is_tangent_here = false;
+        let Some((left, _)) = &self.last else { return Err(Stall::Short) };
+        let whole = between(problem, &left.point, &self.here.point);
+        let part = (value - left.point.parameters[0]) / whole.parameter;
+        left.point.restore(problem).map_err(stall)?;
+        let step: Vec<f64> = whole.step.iter().map(|v| part * v).collect();
+        problem.system().retract(&step);
+        problem.set_parameters([value, left.point.parameters[1]]).map_err(stall)?;
+        let arc = left.arc + part * (self.here.arc - left.arc);
+        settle(problem, self.options.tolerance).map_err(|_| Stall::Short)?;
+        problem.system().linearise().map_err(|b| stall(b.into()))?;
+        let (slope, mut tangent) = direction_here(problem).map_err(stall)?;
+        if tangent.product(problem.system(), &whole.step, whole.parameter) < 0.0 {
+            tangent.scale(-1.0);
+        }
+        Ok(Place {
+            point: Point::here(problem),
+            positive: problem.system().orientation(),
+            index: problem.index(),
+            arc,
+            tangent,
+            slope,
+        })
+    }
+
+    /// Does the last step pass through `point`, in the direction `tangent`?
+    pub fn passes<P: Problem>(&self, problem: &mut P, point: &Point, tangent: &Tangent) -> bool {
+        let Some((left, width)) = &self.last else { return false };
+        if left.point.state.len() != point.state.len() || self.here.point.state.len() != point.state.len() {
+            return false;
+        }
+        let to = between(problem, &left.point, point);
+        let system = problem.system();
+        let along = left.tangent.product(system, &to.step, to.parameter);
+        let square = to.product(system, &to.step, to.parameter);
+        let aside = (square - along * along).max(0.0).sqrt();
+        let same_way = tangent.step.len() == left.tangent.step.len()
+            && left.tangent.product(system, &tangent.step, tangent.parameter) > 0.5;
+        same_way && along > 0.0 && along <= 1.05 * width && aside <= 0.25 * width
+    }
+
+    fn try_step<P: Problem>(&mut self, problem: &mut P, width: f64) -> Result<(Place, f64), (Miss, f64)> {
+        let here = &self.here;
+        let restored = here.point.restore(problem).map_err(|refusal| (refusal.into(), 0.3));
+        restored?;
+        if !self.is_tangent_here {
+            problem.system().linearise().map_err(|b| (b.into(), 0.3))?;
+            self.is_tangent_here = true;
+        }
+        let mut step = here.tangent.clone();
+        step.scale(width);
+        if let Some((before, gone)) = &self.before
+            && before.step.len() == step.step.len()
+        {
+            // The direction goes on turning as it did.
+            let bend = 0.5 * width * width / gone;
+            for ((s, new), old) in step.step.iter_mut().zip(&here.tangent.step).zip(&before.step) {
+                *s += bend * (new - old);
+            }
+            step.parameter += bend * (here.tangent.parameter - before.parameter);
+        }
+        let reach = step.size(problem.system());
+        problem.system().retract(&step.step);
+        let parameters = here.point.parameters;
+        problem
+            .set_parameters([parameters[0] + step.parameter, parameters[1]])
+            .map_err(|refusal| (refusal.into(), 0.3))?;
+        let limits = Limits { tolerance: self.options.tolerance, farthest: self.options.farthest, reach };
+        let first = correct(problem, &here.tangent, Some(&here.slope), &limits).map_err(|miss| {
+            let factor = match &miss {
+                Miss::Far(by) => (0.5 * self.options.farthest / by).sqrt().clamp(0.1, 0.6),
+                _ => 0.35,
+            };
+            (miss, factor)
+        })?;
+        problem.system().linearise().map_err(|b| (b.into(), 0.7))?;
+        let (slope, mut tangent) = direction_here(problem).map_err(|refusal| (refusal.into(), 0.7))?;
+        let mut cosine = tangent.product(problem.system(), &here.tangent.step, here.tangent.parameter);
+        // The metric may have changed a little with the loads.
+        let length =
+            here.tangent.product(problem.system(), &here.tangent.step, here.tangent.parameter).sqrt();
+        cosine /= length;
+        if cosine < 0.0 {
+            tangent.scale(-1.0);
+            cosine = -cosine;
+        }
+        if cosine < self.options.least_cosine {
+            return Err((Miss::NotContracting, 0.4));
+        }
+        let by_way = (self.options.aim * reach / first.max(1e-12)).sqrt();
+        let turned = cosine.min(1.0).acos();
+        let by_turn = self.options.aimed_cosine.acos() / turned.max(1e-6);
+        let growth = by_way.min(by_turn).clamp(0.5, 2.0);
+        let place = Place {
+            point: Point::here(problem),
+            positive: problem.system().orientation(),
+            index: problem.index(),
+            arc: here.arc + width,
+            tangent,
+            slope,
+        };
+        Ok((place, growth))
+    }
+
+    /// What lies between two neighbouring points. What cannot be told apart is halved, `depth` times at most. Err where it
+    /// cannot be told then: the two do not lie on one path.
+    fn passed<P: Problem>(
+        &self,
+        problem: &mut P,
+        from: &Place,
+        to: &Place,
+        depth: usize,
+    ) -> Result<Vec<Special>, ()> {
+        let turned = from.tangent.parameter * to.tangent.parameter < 0.0;
+        let flipped = from.positive != to.positive;
+        let change = match (from.index, to.index) {
+            (Some(a), Some(b)) => Some(a.abs_diff(b)),
+            _ => None,
+        };
+        let bracket = || Bracket {
+            before: &from.point,
+            after: &to.point,
+            tangent: &from.tangent,
+            index: [from.index, to.index],
+        };
+        let found = match (flipped, turned, change) {
+            (false, false, None | Some(0)) => return Ok(Vec::new()),
+            (true, true, None | Some(1)) => locate(problem, &bracket(), true),
+            (true, false, None | Some(1)) => locate(problem, &bracket(), false),
+            (_, _, Some(count)) if depth == 0 && count > 1 => {
+                let tolerance = self.options.tolerance;
+                let length = to.arc - from.arc;
+                let from = From { point: &from.point, tangent: &from.tangent, length, tolerance };
+                locate_multiple(problem, &from, count)
+            }
+            _ => Ok(None),
+        };
+        if let Ok(Some(special)) = found {
+            return Ok(vec![special]);
+        }
+        if depth == 0 {
+            return Err(());
+        }
+        // Not in the middle, where symmetry likes to put what is sought.
+        let middle = self.place_between(problem, from, to, 0.47).map_err(|_| ())?;
+        let mut all = self.passed(problem, from, &middle, depth - 1)?;
+        all.extend(self.passed(problem, &middle, to, depth - 1)?);
+        Ok(all)
+    }
+
+    /// A point between two neighbouring points of the path.
+    fn place_between<P: Problem>(
+        &self,
+        problem: &mut P,
+        from: &Place,
+        to: &Place,
+        part: f64,
+    ) -> Result<Place, Miss> {
+        let whole = between(problem, &from.point, &to.point);
+        from.point.restore(problem)?;
+        let step: Vec<f64> = whole.step.iter().map(|v| part * v).collect();
+        let reach = whole.size(problem.system());
+        problem.system().retract(&step);
+        let parameters = from.point.parameters;
+        problem.set_parameters([parameters[0] + part * whole.parameter, parameters[1]])?;
+        let limits = Limits { tolerance: self.options.tolerance, farthest: 0.5, reach };
+        correct(problem, if part < 0.5 { &from.tangent } else { &to.tangent }, None, &limits)?;
+        problem.system().linearise()?;
+        let (slope, mut tangent) = direction_here(problem)?;
+        if tangent.product(problem.system(), &whole.step, whole.parameter) < 0.0 {
+            tangent.scale(-1.0);
+        }
+        Ok(Place {
+            point: Point::here(problem),
+            positive: problem.system().orientation(),
+            index: problem.index(),
+            arc: from.arc + part * (to.arc - from.arc),
+            tangent,
+            slope,
+        })
+    }
+}
+
+fn stall(refusal: Refusal) -> Stall {
+    match refusal {
+        Refusal::Parameter(why) => Stall::Parameter(why),
+        Refusal::Broken(_) => Stall::Short,
+    }
+}
+
+/// The longest step in a direction that the options allow.
+fn largest<S: flexura_nonlinear::Liftable>(system: &S, tangent: &Tangent, options: &WalkOptions) -> f64 {
+    let by_change = options.largest_change / system.size(&tangent.step).max(1e-12);
+    let by_turning = options.largest_change / system.turning(&tangent.step).max(1e-12);
+    let by_parameter = options.largest_parameter / tangent.parameter.abs().max(1e-12);
+    by_change.min(by_turning).min(by_parameter)
+}
+
+/// The slope of the state and the unit direction of the path, with the tangent of the present point.
+fn direction_here<P: Problem>(problem: &mut P) -> Result<(Vec<f64>, Tangent), Refusal> {
+    let slope = slope(problem, 0)?;
+    let tangent = Tangent { step: slope.clone(), parameter: 1.0 }.normalised(problem.system());
+    if !tangent.parameter.is_finite() {
+        return Err(Refusal::Broken(Breakdown::NotFinite));
+    }
+    Ok((slope, tangent))
+}
+
+/// The first point of a branch beyond its branch point.
+pub(crate) fn first_point<P: Problem>(
+    problem: &mut P,
+    options: &WalkOptions,
+    from: &Point,
+    tangent: &Tangent,
+    width: f64,
+) -> Result<Place, Miss> {
+    from.restore(problem)?;
+    let step: Vec<f64> = tangent.step.iter().map(|t| width * t).collect();
+    let reach = width * tangent.size(problem.system());
+    problem.system().retract(&step);
+    let parameters = from.parameters;
+    problem.set_parameters([parameters[0] + width * tangent.parameter, parameters[1]])?;
+    let limits = Limits { tolerance: options.tolerance, farthest: options.farthest, reach };
+    correct(problem, tangent, None, &limits)?;
+    let point = Point::here(problem);
+    let gone = between(problem, from, &point);
+    problem.system().linearise()?;
+    let (slope, mut direction) = direction_here(problem)?;
+    let system = problem.system();
+    let length = gone.product(system, &gone.step, gone.parameter).sqrt();
+    let cosine = tangent.product(system, &gone.step, gone.parameter) / length;
+    let mut ahead = direction.product(system, &tangent.step, tangent.parameter);
+    if ahead < 0.0 {
+        direction.scale(-1.0);
+        ahead = -ahead;
+    }
+    if cosine < 0.9 || ahead < options.least_cosine {
+        return Err(Miss::NotContracting);
+    }
+    Ok(Place {
+        positive: problem.system().orientation(),
+        index: problem.index(),
+        arc: width,
+        tangent: direction,
+        slope,
+        point,
+    })
+}

@@ -1,0 +1,284 @@
+//! The second variation as one symmetric matrix, and its count of negative eigenvalues.
+
+use super::mesh::Cut;
+use crate::assembly::Sink;
+use crate::held::{Held, HoldRef};
+use crate::layout::CoordinateSlot;
+use crate::lower::Hold;
+use crate::shooting::{SegmentEnd, wrench_of};
+use crate::system::Equilibrium;
+use flexura_nonlinear::{BlockPlace, Breakdown, Matrix};
+use flexura_spatial::{Twist, Vector3, Wrench};
+use nalgebra::Vector6;
+
+type V = Vector3<f64>;
+type Motions = Vec<(usize, Vector6<f64>)>;
+
+/// A row or column of the plain tangents in the symmetric matrix: its number and sign there; none where it has no part in it.
+#[derive(Clone, Copy, Default)]
+struct Target {
+    at: Option<usize>,
+    flipped: bool,
+}
+
+/// Numbers of what a span adds: η of each stretch, the poses between them, and the pose of a free end.
+struct Numbers {
+    first: usize,
+    stretches: usize,
+    free: bool,
+}
+
+impl Numbers {
+    fn wrench(&self, k: usize) -> usize {
+        self.first + 12 * k
+    }
+
+    /// The pose behind stretch `k`; none behind the last where the end is held.
+    fn pose(&self, k: usize) -> Option<usize> {
+        (k + 1 < self.stretches || self.free).then_some(self.first + 12 * k + 6)
+    }
+
+    fn count(&self) -> usize {
+        12 * self.stretches - if self.free { 0 } else { 6 }
+    }
+}
+
+fn vector(angular: V, linear: V) -> Vector6<f64> {
+    Vector6::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
+}
+
+/// A change of (moment, force) as a wrench.
+fn wrench(v: &Vector6<f64>) -> Wrench {
+    Wrench::new(V::new(v[3], v[4], v[5]), V::new(v[0], v[1], v[2]))
+}
+
+fn identity(at: usize) -> Motions {
+    (0..6).map(|i| (at + i, Vector6::ith(i, 1.0))).collect()
+}
+
+impl Equilibrium {
+    /// Negative directions of the second variation under the constraints.
+    pub(super) fn second_variation(&mut self) -> Result<usize, Breakdown> {
+        let mut end = SegmentEnd::new();
+        let mut cuts = Vec::with_capacity(self.lowered.spans.len());
+        for span in 0..self.lowered.spans.len() {
+            cuts.push(self.short_stretches(span, &mut end)?);
+        }
+        let mut total = self.layout.interface;
+        let mut numbers = Vec::with_capacity(cuts.len());
+        for (cut, span) in cuts.iter().zip(&self.lowered.spans) {
+            let own = Numbers { first: total, stretches: cut.forms.len(), free: span.end.is_none() };
+            total += own.count();
+            numbers.push(own);
+        }
+        let (rows, columns, size, multipliers) = self.targets(&numbers, total);
+        let blocks = self.block_places(&numbers, &columns);
+        let mut plain = Matrix::default();
+        plain.arrange(total, &[BlockPlace { first: 0, count: total, place: [0.0; 3] }]);
+        let mut r = vec![0.0; total];
+        let mut sink = Sink { r: &mut r, matrix: Some(&mut plain) };
+        for joint in 0..self.lowered.joints.len() {
+            self.evaluate_joint(joint, &mut sink);
+        }
+        self.evaluate_gears(&mut sink);
+        self.evaluate_node_loads(&mut sink);
+        self.evaluate_springs(&mut sink);
+        self.evaluate_ropes(&mut sink);
+        for ((span, cut), own) in cuts.iter().enumerate().zip(&numbers) {
+            self.add_span(span, cut, own, &mut sink);
+        }
+        let mut symmetric = std::mem::take(&mut self.second);
+        symmetric.arrange(size, &blocks);
+        symmetric.reset();
+        plain.for_each(|i, j, value| {
+            let (row, column) = (rows[i], columns[j]);
+            if let (Some(i), Some(j)) = (row.at, column.at) {
+                // Rows are minus the energy's derivatives, but for those that are marked.
+                symmetric.add(i, j, if row.flipped { value } else { -value });
+            }
+        });
+        let inertia = symmetric.factorise();
+        self.second = symmetric;
+        let inertia = inertia?;
+        if inertia.zero > 0 {
+            return Err(Breakdown::Singular);
+        }
+        inertia.negative.checked_sub(multipliers).ok_or(Breakdown::Singular)
+    }
+
+    /// Where rows and columns of the plain tangents stand in the symmetric matrix, its size, and how many of its unknowns are
+    /// multipliers.
+    fn targets(&self, numbers: &[Numbers], total: usize) -> (Vec<Target>, Vec<Target>, usize, usize) {
+        let mut columns = vec![Target::default(); total];
+        let mut flipped = vec![false; total];
+        let mut size = 0;
+        let mut take = |columns: &mut Vec<Target>, first: usize, count: usize| {
+            for target in &mut columns[first..first + count] {
+                target.at = Some(size);
+                size += 1;
+            }
+        };
+        let mut multipliers = 0;
+        for slot in &self.layout.nodes {
+            take(&mut columns, slot.unknown, 6);
+        }
+        for slots in &self.layout.spans {
+            for slot in [&slots.start, &slots.end] {
+                take(&mut columns, slot.unknown, slot.count);
+                flipped[slot.unknown..slot.unknown + slot.count].fill(true);
+            }
+        }
+        for (i, slots) in self.layout.joints.iter().enumerate() {
+            let slot = &slots.coordinates;
+            take(&mut columns, slot.unknown, slot.count);
+            flipped[slot.unknown..slot.unknown + slot.count].fill(true);
+            for component in 0..6 {
+                // A closure row that others repeat is left out together with the component that would keep it.
+                let row = (component + 3) % 6;
+                if !self.slack.get(i).is_some_and(|slack| slack[row]) {
+                    take(&mut columns, slots.wrench.unknown + component, 1);
+                    multipliers += 1;
+                }
+            }
+        }
+        for slot in &self.layout.gears {
+            take(&mut columns, slot.unknown, 1);
+            multipliers += 1;
+        }
+        for slot in self.layout.ropes.iter().flatten() {
+            take(&mut columns, slot.unknown, 1);
+            flipped[slot.unknown] = true;
+            multipliers += 1;
+        }
+        for own in numbers {
+            take(&mut columns, own.first, own.count());
+            multipliers += 6 * own.stretches;
+        }
+        let mut rows: Vec<Target> =
+            columns.iter().zip(&flipped).map(|(c, flipped)| Target { at: c.at, flipped: *flipped }).collect();
+        for slots in &self.layout.joints {
+            // Closure rows are turning, then shift; the wrench is force, then moment.
+            let at = slots.wrench.unknown;
+            for row in 0..6 {
+                rows[at + row] = columns[at + (row + 3) % 6];
+            }
+        }
+        (rows, columns, size, multipliers)
+    }
+
+    /// Unknowns of the symmetric matrix in blocks with their places.
+    fn block_places(&self, numbers: &[Numbers], columns: &[Target]) -> Vec<BlockPlace> {
+        let mut blocks = Vec::new();
+        let mut add = |range: std::ops::Range<usize>, place: [f64; 3]| {
+            let taken: Vec<usize> = range.filter_map(|i| columns[i].at).collect();
+            if let Some(first) = taken.iter().min() {
+                blocks.push(BlockPlace { first: *first, count: taken.len(), place });
+            }
+        };
+        for block in self.layout.blocks(&self.lowered) {
+            // Start and end coordinates of a span do not follow each other; singles are blocks of their own.
+            for i in block.first..block.first + block.count {
+                add(i..i + 1, block.place);
+            }
+        }
+        for (own, span) in numbers.iter().zip(&self.lowered.spans) {
+            let ends = span.s.map(|s| self.lowered.rest_pose(span.beam, s).position);
+            for k in 0..own.stretches {
+                let t = (k as f64 + 0.5) / own.stretches as f64;
+                let place = ends[0] * (1.0 - t) + ends[1] * t;
+                let last = own.pose(k).map_or(own.wrench(k) + 6, |pose| pose + 6);
+                add(own.wrench(k)..last, place.into());
+            }
+        }
+        blocks
+    }
+
+    fn add_span(&self, span: usize, cut: &Cut, own: &Numbers, sink: &mut Sink<'_>) {
+        let slots = &self.layout.spans[span];
+        let description = &self.lowered.spans[span];
+        let start = self.held_by(&description.start, &slots.start);
+        let end = description.end.as_ref().map(|hold| self.held_by(hold, &slots.end));
+        let motions = |held: &Held, slot: &CoordinateSlot| {
+            let mut list = Motions::new();
+            self.target_columns(held, slot.unknown, |unknown, Twist { angular, linear }| {
+                list.push((unknown, vector(angular, linear)));
+            });
+            list
+        };
+        for (k, form) in cut.forms.iter().enumerate() {
+            let before = match k.checked_sub(1).and_then(|k| own.pose(k)) {
+                Some(pose) => identity(pose),
+                None => motions(&start, &slots.start),
+            };
+            let after = match (own.pose(k), &end) {
+                (Some(pose), _) => identity(pose),
+                (None, Some(end)) => motions(end, &slots.end),
+                (None, None) => continue,
+            };
+            let eta = own.wrench(k);
+            for (unknown, x) in &before {
+                add(sink, eta, *unknown, &(form.p * x));
+            }
+            for (unknown, x) in &after {
+                add(sink, eta, *unknown, &-x);
+            }
+            for j in 0..6 {
+                add(sink, eta, eta + j, &form.d.column(j).into_owned());
+            }
+            // Changes of minus the wrench at the start, and of that at the end.
+            let at_start = |f: &mut dyn FnMut(usize, Vector6<f64>)| {
+                before.iter().for_each(|(unknown, x)| f(*unknown, -(form.rp * x)));
+                after.iter().for_each(|(unknown, x)| f(*unknown, form.r.tr_mul(x)));
+                (0..6).for_each(|j| f(eta + j, -form.p.row(j).transpose()));
+            };
+            let at_end = |f: &mut dyn FnMut(usize, Vector6<f64>)| {
+                before.iter().for_each(|(unknown, x)| f(*unknown, form.r * x));
+                (0..6).for_each(|j| f(eta + j, Vector6::ith(j, 1.0)));
+            };
+            match k.checked_sub(1).and_then(|k| own.pose(k)) {
+                Some(pose) => at_start(&mut |unknown, change| add(sink, pose, unknown, &-change)),
+                None => {
+                    let derivative = |f: &mut dyn FnMut(usize, Wrench)| {
+                        at_start(&mut |unknown, change| f(unknown, wrench(&change)))
+                    };
+                    let on_child = -wrench_of(&cut.start);
+                    self.hold_rows(
+                        &start,
+                        &slots.start,
+                        &description.start.coordinates,
+                        &on_child,
+                        &derivative,
+                        sink,
+                    );
+                }
+            }
+            match (own.pose(k), &end, &description.end) {
+                (Some(pose), _, _) => at_end(&mut |unknown, change| add(sink, pose, unknown, &-change)),
+                (None, Some(held), Some(hold)) => {
+                    let derivative = |f: &mut dyn FnMut(usize, Wrench)| {
+                        at_end(&mut |unknown, change| f(unknown, wrench(&change)))
+                    };
+                    self.hold_rows(
+                        held,
+                        &slots.end,
+                        &hold.coordinates,
+                        &wrench_of(&cut.end),
+                        &derivative,
+                        sink,
+                    );
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn held_by(&self, hold: &Hold, slot: &CoordinateSlot) -> Held {
+        self.held(&hold.carrier, &HoldRef::of(hold), &self.configuration(slot))
+    }
+}
+
+fn add(sink: &mut Sink<'_>, row: usize, column: usize, v: &Vector6<f64>) {
+    for i in 0..6 {
+        sink.add_number(row + i, column, v[i]);
+    }
+}

@@ -1,0 +1,112 @@
+//! Cuts spans into stretches that are stable by themselves, and carries the state along them.
+//!
+//! A stretch of length ℓ, clamped at its start, with section moments up to M and forces up to F, bends and twists with at
+//! least B ∫|θ'|² against at most M ∫|θ||θ'| + F ∫|θ|², B the softest stiffness. With ∫|θ|² ≤ (2ℓ/π)² ∫|θ'|² its second variation is
+//! positive where
+//!
+//! ```text
+//!   (2ℓ/π) M/B + (2ℓ/π)² F/B < 1
+//! ```
+
+use super::segment::Form;
+use crate::mesh::{Level, Stretch};
+use crate::shooting::{Plain, SegmentEnd, jump};
+use crate::system::Equilibrium;
+use flexura_nonlinear::Breakdown;
+use flexura_spatial::Vector3;
+
+/// What the left side above may be: aimed at, and at most.
+const AIM: f64 = 0.7;
+const MOST: f64 = 0.95;
+/// Accuracy of the integration along stretches.
+const ACCURACY: f64 = 1e-9;
+/// Most stretches of one span.
+const MOST_STRETCHES: usize = 20_000;
+
+fn measure(length: f64, soft: f64, level: &Level) -> f64 {
+    let reach = std::f64::consts::FRAC_2_PI * length;
+    soft * (reach * (level.moment + level.tendons) + reach * reach * level.force)
+}
+
+fn norm(v: &[f64; 3]) -> f64 {
+    Vector3::from(*v).norm()
+}
+
+/// A span as short stretches.
+pub(super) struct Cut {
+    pub forms: Vec<Form>,
+    /// The state at the span's start, before any load there.
+    pub start: Plain,
+    /// The state at its end, after what jumps there.
+    pub end: Plain,
+}
+
+impl Equilibrium {
+    pub(super) fn short_stretches(&self, span: usize, end: &mut SegmentEnd) -> Result<Cut, Breakdown> {
+        let description = &self.lowered.spans[span];
+        let law = &self.lowered.beams[description.beam];
+        let mesh = &self.meshes[span];
+        let pulls: Vec<_> = self
+            .pulls(span)
+            .into_iter()
+            .map(|pull| crate::shooting::Pull { unknown: false, ..pull })
+            .collect();
+        let level = self.levels[span];
+        let start = self.head_state(span);
+        let mut forms = Vec::new();
+        let mut here = start;
+        for (k, segment) in mesh.segments.iter().enumerate() {
+            if k == 0 {
+                mesh.first_jumps.iter().for_each(|&j| jump(&description.jumps[j], self.load, &mut here));
+            } else {
+                here = self.inner_state(self.layout.spans[span].inner[k - 1].state);
+            }
+            for stretch in segment {
+                let [first, last] = stretch.s;
+                let whole = (last - first) / law.scale.length;
+                // From the condition, as a quadratic in the length.
+                let (a, b) = (law.soft() * level.force, law.soft() * (level.moment + level.tendons));
+                let aim = 2.0 * AIM / (b + (b * b + 4.0 * a * AIM).sqrt()).max(1e-300);
+                let count =
+                    (whole / (aim * std::f64::consts::FRAC_PI_2)).ceil().clamp(1.0, MOST_STRETCHES as f64);
+                let mut width = (last - first) / count;
+                let mut s = first;
+                while s < last {
+                    let left = last - s;
+                    // Equal parts of what is left, so that no sliver remains.
+                    let next =
+                        if left <= 1.000_001 * width { last } else { s + left / (left / width).ceil() };
+                    let part = Stretch::new(
+                        law,
+                        description,
+                        [s, next],
+                        level.steps(law, description, [s, next], ACCURACY),
+                        Vec::new(),
+                    );
+                    let form = Form::new(&part, self.load, &pulls, &here, end).filter(|form| {
+                        let met = Level {
+                            force: norm(&here.force).max(norm(&form.end.force)),
+                            moment: norm(&here.moment).max(norm(&form.end.moment)),
+                            tendons: level.tendons,
+                        };
+                        measure((next - s) / law.scale.length, law.soft(), &met) <= MOST
+                    });
+                    if let Some(form) = form {
+                        here = form.end;
+                        forms.push(form);
+                        s = next;
+                    } else if forms.len() < MOST_STRETCHES && next - s > 1e-9 * law.length {
+                        width = 0.5 * (next - s);
+                    } else {
+                        return Err(Breakdown::Singular);
+                    }
+                }
+                stretch.jumps.iter().for_each(|&j| jump(&description.jumps[j], self.load, &mut here));
+            }
+        }
+        if !norm(&here.moment).is_finite() {
+            return Err(Breakdown::NotFinite);
+        }
+        Ok(Cut { forms, start, end: here })
+    }
+}

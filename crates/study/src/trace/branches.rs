@@ -1,0 +1,335 @@
+//! The branches of a trace: the one from rest, those that it meets, and those that are searched for.
+
+use super::leg::{FINER, Follower, Leg, Met};
+use super::problem::{Axis, Traced};
+use super::record::Reader;
+use super::{TraceProgress, critical, search};
+use crate::{Family, Options, Prepared, ProblemError};
+use flexura_continuation::{Problem, WalkOptions, Walker};
+use flexura_model::{Model, Stop, TraceStudy};
+use flexura_solution::{Branch, BranchEnd, BranchOrigin, Crossing, PointKind, Status, Trace, TraceWork};
+use std::collections::VecDeque;
+
+/// A critical point of a branch, for later.
+pub(crate) struct Known {
+    pub branch: usize,
+    pub at: usize,
+    pub met: Met,
+    /// Its branches have been followed, or need not be.
+    pub done: bool,
+}
+
+/// All that a trace collects.
+pub(crate) struct Collection {
+    pub branches: Vec<Branch>,
+    pub known: Vec<Known>,
+    pub warnings: Vec<String>,
+    pub work: TraceWork,
+}
+
+/// Two critical points are the same where their parameters agree to this part of the range.
+const SAME: f64 = 1e-6;
+
+/// Follows equilibria as a parameter changes: from rest, on to the ends of the range, with the folds, branch points and
+/// events on the way, and, if asked for, the branches that cross it.
+///
+/// # Errors
+/// A model that describes no solvable mechanism, or an inverse problem.
+pub fn trace(
+    model: &Model,
+    family: &mut dyn Family,
+    study: &TraceStudy,
+    options: &Options,
+    progress: &mut dyn FnMut(TraceProgress),
+) -> Result<Trace, ProblemError> {
+    if !model.unknowns.is_empty() {
+        return Err(ProblemError::new(
+            "unknown",
+            "an inverse problem cannot be traced: its parameters are found at every point",
+            "leave out [unknown] and [target], and trace the parameter itself",
+        ));
+    }
+    let span = study.range[1] - study.range[0];
+    if !(span.is_finite() && span != 0.0) {
+        return Err(ProblemError::new(
+            "study",
+            format!("the range from {} to {} has no extent", study.range[0], study.range[1]),
+            "give two different values",
+        ));
+    }
+    let axis = Axis { parameter: study.parameter, origin: study.range[0], span };
+    let mut watched = study.events.clone();
+    watched.extend(study.stops.iter().filter_map(|stop| match stop {
+        Stop::Value(target) => Some(target.clone()),
+        _ => None,
+    }));
+    let samples = options.samples.min((MOST_SAMPLES / model.beams.len().max(1)).max(FEWEST_SAMPLES));
+    let reader = Reader { watched, samples };
+    let start = family.model(&[(study.parameter, study.start)])?;
+    let mut prepared = Prepared::new(&start)?;
+    prepared.problem.watch(reader.places());
+    let outcome = prepared.solve(options.tolerance, &mut |_| {});
+    let mut follower = Follower {
+        study,
+        events: study.events.len(),
+        reader,
+        tolerance: options.tolerance,
+        progress,
+        branch: 0,
+    };
+    let mut collection = Collection {
+        branches: Vec::new(),
+        known: Vec::new(),
+        warnings: Vec::new(),
+        work: TraceWork::default(),
+    };
+    let mut trace = Trace {
+        parameter: study.parameter,
+        range: study.range,
+        status: outcome.status,
+        reason: outcome.reason.map(|reason| format!("at the start of the path: {reason}")),
+        warnings: prepared.problem.warnings().to_vec(),
+        stability_reason: None,
+        branches: Vec::new(),
+        critical: None,
+        work: TraceWork::default(),
+    };
+    if outcome.status != Status::Converged {
+        return Ok(trace);
+    }
+    let second = critical::second_axis(model, study, axis);
+    let at = [axis.scaled(study.start), second.scaled_or_zero(model)];
+    let mut traced = Traced::new(prepared, family, [axis, second], at, study.critical.is_some());
+    from_here(&mut traced, &mut follower, BranchOrigin::Rest, &mut collection);
+    switch(&mut traced, &mut follower, study.branches, &mut collection);
+    search::find(&mut traced, &mut follower, model, options, &mut collection);
+    switch(&mut traced, &mut follower, study.branches, &mut collection);
+    if let Some(wanted) = &study.critical {
+        trace.critical = critical::follow(&mut traced, &mut follower, wanted, &mut collection);
+    }
+    let counts = traced.problem().counts();
+    trace.stability_reason = traced.undecided.take();
+    trace.warnings.append(&mut collection.warnings);
+    trace.work = TraceWork {
+        points: collection.branches.iter().map(|branch| branch.points.len()).sum(),
+        newton_steps: counts.newton_steps,
+        factorisations: counts.factorisations,
+        residuals: counts.residuals,
+        inertias: counts.inertias,
+        ..collection.work
+    };
+    trace.branches = collection.branches;
+    (trace.status, trace.reason) = verdict(&trace);
+    Ok(trace)
+}
+
+/// Samples of all beams together, and of each at least, in a state that is kept.
+const MOST_SAMPLES: usize = 20_000;
+const FEWEST_SAMPLES: usize = 5;
+
+/// The path's own limits.
+pub(crate) fn walk_options(follower: &Follower<'_>) -> WalkOptions {
+    let steps = follower.study.steps.max(2) as f64;
+    WalkOptions {
+        tolerance: (0.1 * follower.tolerance).clamp(1e-12, 1e-9),
+        largest_parameter: 1.0 / steps,
+        largest_change: (10.0 / steps).clamp(0.02, 0.3),
+        ..WalkOptions::default()
+    }
+}
+
+/// Follows the branch on which the problem stands, in the directions that lie inside the range.
+pub(crate) fn from_here(
+    traced: &mut Traced<'_>,
+    follower: &mut Follower<'_>,
+    origin: BranchOrigin,
+    collection: &mut Collection,
+) {
+    follower.branch = collection.branches.len();
+    let options = walk_options(follower);
+    traced.refine(follower.tolerance * FINER);
+    traced.problem().weigh();
+    let snapshot = traced.snapshot();
+    let at = traced.parameters()[0];
+    let mut legs: [Option<Leg>; 2] = [None, None];
+    for (leg, direction) in legs.iter_mut().zip([-1.0, 1.0]) {
+        let outside = if direction < 0.0 { at <= 1e-9 } else { at >= 1.0 - 1e-9 };
+        if outside {
+            continue;
+        }
+        traced.go_back(&snapshot);
+        let walker = Walker::start(traced, options, direction);
+        *leg = Some(match walker {
+            Ok(mut walker) => follower.follow(traced, &mut walker, Some(PointKind::End)),
+            Err(_) => Leg {
+                points: Vec::new(),
+                met: Vec::new(),
+                end: BranchEnd::Stalled("the tangent has no inverse at its start".to_string()),
+                refused: 0,
+            },
+        });
+    }
+    let [minus, plus] = legs;
+    match (minus, plus) {
+        (Some(mut minus), Some(mut plus)) if !minus.points.is_empty() && !plus.points.is_empty() => {
+            // The start was reported twice.
+            minus.points.remove(0);
+            minus.met.iter_mut().for_each(|met| met.at -= 1);
+            if let Some(start) = plus.points.first_mut() {
+                start.kind = PointKind::Regular;
+            }
+            add(origin, Some(minus), plus, None, collection);
+        }
+        (None, Some(leg)) | (Some(leg), None) => add(origin, None, leg, None, collection),
+        (Some(minus), Some(plus)) => {
+            let leg = if plus.points.is_empty() { minus } else { plus };
+            add(origin, None, leg, None, collection);
+        }
+        (None, None) => {}
+    }
+}
+
+/// Joins two legs that leave the same point; `middle` is that point if neither of them has it.
+fn add(
+    origin: BranchOrigin,
+    minus: Option<Leg>,
+    plus: Leg,
+    middle: Option<flexura_solution::TracePoint>,
+    collection: &mut Collection,
+) {
+    let branch = collection.branches.len();
+    let mut points = Vec::new();
+    let mut met: Vec<Met> = Vec::new();
+    let mut first = BranchEnd::Start;
+    collection.work.refused += plus.refused;
+    if let Some(minus) = minus {
+        collection.work.refused += minus.refused;
+        let count = minus.points.len();
+        points.extend(minus.points.into_iter().rev());
+        points.iter_mut().for_each(|point: &mut flexura_solution::TracePoint| point.arc = -point.arc);
+        met.extend(minus.met.into_iter().map(|m| Met { at: count - 1 - m.at, ..m }));
+        met.reverse();
+        first = minus.end;
+    }
+    if let Some(middle) = middle {
+        points.push(flexura_solution::TracePoint { arc: 0.0, ..middle });
+    }
+    let shift = points.len();
+    points.extend(plus.points);
+    met.extend(plus.met.into_iter().map(|m| Met { at: m.at + shift, ..m }));
+    let start = points.first().map_or(0.0, |point| point.arc);
+    points.iter_mut().for_each(|point| point.arc -= start);
+    collection.branches.push(Branch { origin, points, ends: [first, plus.end] });
+    for met in met {
+        let mut done = !met.simple || met.fold;
+        for known in collection.known.iter_mut().filter(|known| !known.met.fold) {
+            if same_point(&collection.branches, (known.branch, known.at), (branch, met.at)) {
+                // Both branches through it are known by now.
+                known.done = true;
+                done = true;
+            }
+        }
+        if !met.fold && !met.simple {
+            let point = &collection.branches[branch].points[met.at];
+            if let PointKind::Branch(Crossing::Multiple(count)) = point.kind {
+                collection.warnings.push(format!(
+                    "{count} directions give way at once where the parameter is {:.6e} (SI): branches are followed only where one \
+                     does; give sections two different stiffnesses, or a small imperfection, to tell them apart",
+                    point.parameter
+                ));
+            }
+        }
+        collection.known.push(Known { branch, at: met.at, met, done });
+    }
+}
+
+fn same_point(branches: &[Branch], a: (usize, usize), b: (usize, usize)) -> bool {
+    if a == b {
+        return false;
+    }
+    let (p, q) = (&branches[a.0].points[a.1], &branches[b.0].points[b.1]);
+    let size =
+        branches[a.0].points.iter().map(|point| (point.parameter - p.parameter).abs()).fold(0.0, f64::max);
+    (p.parameter - q.parameter).abs() <= SAME * size.max(f64::MIN_POSITIVE)
+        && match (&p.solution, &q.solution) {
+            (Some(p), Some(q)) => crate::search::same(p, q),
+            _ => false,
+        }
+}
+
+/// Follows the branches that cross those known, and those that cross these, until there are no more or as many as wanted.
+fn switch(traced: &mut Traced<'_>, follower: &mut Follower<'_>, most: usize, collection: &mut Collection) {
+    let mut queue: VecDeque<usize> = (0..collection.known.len()).collect();
+    let options = walk_options(follower);
+    let switched = |collection: &Collection| {
+        let is_switched = |branch: &&Branch| matches!(branch.origin, BranchOrigin::Switched { .. });
+        collection.branches.iter().filter(is_switched).count()
+    };
+    while let Some(position) = queue.pop_front() {
+        if collection.known[position].done {
+            continue;
+        }
+        if switched(collection) >= most {
+            return;
+        }
+        collection.known[position].done = true;
+        let Known { branch, at, met, .. } = &collection.known[position];
+        let (branch, at, met) = (*branch, *at, met.clone());
+        for tangent in &met.branches {
+            follower.branch = collection.branches.len();
+            let mut legs: Vec<Leg> = Vec::new();
+            for sense in [-1.0, 1.0] {
+                let Some(snapshot) = &met.snapshot else { continue };
+                traced.go_back(snapshot);
+                legs.push(match Walker::switch(traced, options, &met.point, tangent, sense) {
+                    Ok(mut walker) => follower.follow(traced, &mut walker, Some(PointKind::Regular)),
+                    Err(stall) => Leg {
+                        points: Vec::new(),
+                        met: Vec::new(),
+                        end: super::leg::stalled(&stall),
+                        refused: 0,
+                    },
+                });
+            }
+            let before = collection.known.len();
+            let middle = collection.branches[branch].points[at].clone();
+            if let (Some(plus), Some(minus)) = (legs.pop(), legs.pop()) {
+                add(
+                    BranchOrigin::Switched { branch, point: at },
+                    Some(minus),
+                    plus,
+                    Some(middle),
+                    collection,
+                );
+            }
+            queue.extend(before..collection.known.len());
+        }
+    }
+}
+
+/// Converged where every branch ended as it should.
+fn verdict(trace: &Trace) -> (Status, Option<String>) {
+    for (i, branch) in trace.branches.iter().enumerate() {
+        for end in &branch.ends {
+            match end {
+                BranchEnd::Stalled(why) => {
+                    return (
+                        Status::Stalled,
+                        Some(format!("branch {} cannot be followed further: {why}", i + 1)),
+                    );
+                }
+                BranchEnd::PointLimit => {
+                    return (
+                        Status::IterationLimit,
+                        Some(format!(
+                            "branch {} has as many points as are allowed; raise most_points",
+                            i + 1
+                        )),
+                    );
+                }
+                _ => {}
+            }
+        }
+    }
+    (Status::Converged, None)
+}

@@ -1,0 +1,429 @@
+//! One branch followed one way: points, what is special on it, and why it ends.
+
+use super::TraceProgress;
+use super::problem::{Snapshot, Traced};
+use super::record::{Reader, Reading, crossing, regular};
+use flexura_continuation::{Advance, Place, Point, Special, Stall, Tangent, Walker, between, sharpen};
+use flexura_model::{Stop, TraceStudy};
+use flexura_nonlinear::System;
+use flexura_solution::{BranchEnd, PointKind, TracePoint};
+
+/// A branch point that was met, for later.
+#[derive(Clone)]
+pub(crate) struct Met {
+    /// Position among the leg's points.
+    pub at: usize,
+    /// None where nothing will start from it.
+    pub snapshot: Option<Snapshot>,
+    pub point: Point,
+    pub branches: Vec<Tangent>,
+    pub fold: bool,
+    pub simple: bool,
+}
+
+/// What following came to.
+pub(crate) struct Leg {
+    pub points: Vec<TracePoint>,
+    pub met: Vec<Met>,
+    pub end: BranchEnd,
+    pub refused: usize,
+}
+
+/// How legs are followed.
+pub(crate) struct Follower<'s> {
+    pub study: &'s TraceStudy,
+    pub reader: Reader,
+    /// Number of watched quantities that are events; the others are stops.
+    pub events: usize,
+    pub tolerance: f64,
+    pub progress: &'s mut dyn FnMut(TraceProgress),
+    /// Number of the branch, for progress.
+    pub branch: usize,
+}
+
+/// Regular points between two whose whole state is kept.
+const KEPT: usize = 5;
+/// A parameter that lies outside its range by so little is at its end.
+const EDGE: f64 = 1e-9;
+/// Most tries to find where a quantity has a value.
+const TRIES: usize = 60;
+/// Accuracy of a mesh beside the tolerance, to begin with.
+pub(crate) const FINER: f64 = 0.2;
+/// An error that is below this part of the tolerance is found anew at every so many points only.
+const SAFE: f64 = 0.05;
+const CHECKED: usize = 4;
+/// Most refinements at one point.
+const REFINEMENTS: usize = 6;
+
+/// By how much half as long steps reduce the error, at least.
+const GAIN: f64 = 32.0;
+
+/// Something on the way between two points.
+enum Passed {
+    Special(Special),
+    Watched(usize, Place),
+}
+
+impl Follower<'_> {
+    /// Follows from the walker's present point, which is reported first as being of this kind.
+    pub fn follow(&mut self, traced: &mut Traced<'_>, walker: &mut Walker, first: Option<PointKind>) -> Leg {
+        let mut leg = Leg { points: Vec::new(), met: Vec::new(), end: BranchEnd::Range, refused: 0 };
+        leg.end = self.walk(traced, walker, first, &mut leg);
+        leg.refused = walker.work().refused;
+        leg
+    }
+
+    fn walk(
+        &mut self,
+        traced: &mut Traced<'_>,
+        walker: &mut Walker,
+        first: Option<PointKind>,
+        leg: &mut Leg,
+    ) -> BranchEnd {
+        let mut error = match self.check_mesh(traced, walker) {
+            Ok(error) => error,
+            Err(stall) => return stalled(&stall),
+        };
+        let mut before = self.read(traced, walker);
+        let mut start = walker.here().clone();
+        if let Some(kind) = first {
+            let mut point =
+                regular(traced.axes[0].value(start.point.parameters[0]), &start, before.clone(), error);
+            if kind == PointKind::End {
+                self.keep(traced, walker, &mut point);
+            }
+            point.kind = kind;
+            leg.points.push(point);
+        }
+        let mut since_kept = 0;
+        let mut steps = 0;
+        loop {
+            if leg.points.len() >= self.study.most_points {
+                self.close(traced, walker, leg);
+                return BranchEnd::PointLimit;
+            }
+            let specials = match walker.advance(traced) {
+                Advance::To(specials) => specials,
+                Advance::Stalled(stall) => {
+                    self.close(traced, walker, leg);
+                    return stalled(&stall);
+                }
+            };
+            steps += 1;
+            let scaled = walker.here().point.parameters[0];
+            let beyond = !(-EDGE..=1.0 + EDGE).contains(&scaled);
+            let limit = if scaled > 0.5 { 1.0 } else { 0.0 };
+            let last = if beyond || (scaled - limit).abs() <= EDGE {
+                match walker.at_parameter(traced, limit) {
+                    Ok(place) => Some(place),
+                    Err(stall) => {
+                        self.close(traced, walker, leg);
+                        return stalled(&stall);
+                    }
+                }
+            } else {
+                None
+            };
+            let reading = match &last {
+                Some(_) => self.reader.read(traced),
+                None => {
+                    if error > SAFE * self.tolerance || steps % CHECKED == 0 {
+                        match self.check_mesh(traced, walker) {
+                            Ok(found) => error = found,
+                            Err(stall) => {
+                                self.close(traced, walker, leg);
+                                return stalled(&stall);
+                            }
+                        }
+                    }
+                    self.read(traced, walker)
+                }
+            };
+            let inside = |special: &Special| (-EDGE..=1.0 + EDGE).contains(&special.point.parameters[0]);
+            let mut passed: Vec<(f64, Passed)> = Vec::new();
+            for special in specials.into_iter().filter(inside) {
+                let part = walker.part_of(traced, &special.point);
+                passed.push((part, Passed::Special(special)));
+            }
+            let whole = last.as_ref().map_or(1.0, |place| walker.part_of(traced, &place.point));
+            for (watched, place) in self.watched(traced, walker, &before, &reading, whole) {
+                let part = walker.part_of(traced, &place.point);
+                passed.push((part, Passed::Watched(watched, place)));
+            }
+            passed.sort_by(|a, b| a.0.total_cmp(&b.0));
+            for (_, passed) in passed {
+                if self.report(traced, walker, passed, error, leg) {
+                    return BranchEnd::Stop;
+                }
+            }
+            if let Some(place) = last {
+                let _ = place.point.restore(traced);
+                let mut point = regular(traced.axes[0].value(limit), &place, reading, error);
+                point.kind = PointKind::End;
+                self.keep(traced, walker, &mut point);
+                leg.points.push(point);
+                return BranchEnd::Range;
+            }
+            let here = walker.here().clone();
+            if steps > 3 && walker.passes(traced, &start.point, &start.tangent) {
+                if let Some(point) = leg.points.first().cloned() {
+                    leg.points.push(TracePoint { arc: here.arc, ..point });
+                }
+                return BranchEnd::Closed;
+            }
+            if start.point.state.len() != here.point.state.len() {
+                // Points of another layout cannot be compared; a loop is seen the next time round.
+                start = here.clone();
+            }
+            let mut point = regular(traced.axes[0].value(scaled), &here, reading.clone(), error);
+            since_kept += 1;
+            if since_kept == KEPT {
+                since_kept = 0;
+                self.keep(traced, walker, &mut point);
+            }
+            leg.points.push(point);
+            (self.progress)(TraceProgress {
+                branch: self.branch,
+                points: leg.points.len(),
+                parameter: traced.axes[0].value(scaled),
+            });
+            before = reading;
+            if self.renew(traced, walker).is_err() {
+                self.close(traced, walker, leg);
+                return stalled(&Stall::Short);
+            }
+        }
+    }
+
+    /// The mesh follows the forces.
+    fn renew(&mut self, traced: &mut Traced<'_>, walker: &mut Walker) -> Result<(), Stall> {
+        traced.problem().weigh();
+        let tangent = traced.renew(&walker.here().tangent);
+        if tangent.is_some() {
+            traced.problem().weigh();
+            walker.polish(traced, tangent)?;
+        }
+        Ok(())
+    }
+
+    /// The error of the present point, after the mesh has been refined until it is small enough.
+    fn check_mesh(&mut self, traced: &mut Traced<'_>, walker: &mut Walker) -> Result<f64, Stall> {
+        let mut best = f64::INFINITY;
+        for _ in 0..REFINEMENTS {
+            let mut step = vec![0.0; traced.problem().unknowns()];
+            if traced.problem().mesh_correction(&mut step).is_err() {
+                return Err(Stall::Short);
+            }
+            let error = walker.across(traced.problem(), &step) + 1e-13;
+            if error <= self.tolerance || error > 0.5 * best {
+                return Ok(error);
+            }
+            best = error;
+            let accuracy = traced.problem().mesh_accuracy() * (0.3 * self.tolerance / error).clamp(1e-4, 0.5);
+            traced.refine(accuracy);
+            walker.polish(traced, None)?;
+        }
+        Ok(best)
+    }
+
+    fn read(&self, traced: &mut Traced<'_>, walker: &mut Walker) -> Reading {
+        if traced.prepared.asks_for_tangents() {
+            walker.disturbed();
+        }
+        self.reader.read(traced)
+    }
+
+    /// Adds the whole state to a point at which the problem stands.
+    fn keep(&self, traced: &mut Traced<'_>, walker: &mut Walker, point: &mut TracePoint) {
+        if traced.prepared.asks_for_tangents() {
+            walker.disturbed();
+        }
+        let solution = self.reader.whole(traced, point.unstable_directions, point.error_estimate);
+        point.solution = Some(Box::new(solution));
+    }
+
+    /// The last point is the end: it is kept as a whole.
+    fn close(&self, traced: &mut Traced<'_>, walker: &mut Walker, leg: &mut Leg) {
+        let Some(point) = leg.points.last_mut() else { return };
+        if point.kind == PointKind::Regular && walker.here().point.restore(traced).is_ok() {
+            point.kind = PointKind::End;
+            if point.solution.is_none() {
+                self.keep(traced, walker, point);
+            }
+        }
+    }
+
+    /// Where watched quantities pass their values in the last step, up to `whole` of it.
+    fn watched(
+        &self,
+        traced: &mut Traced<'_>,
+        walker: &mut Walker,
+        before: &Reading,
+        after: &Reading,
+        whole: f64,
+    ) -> Vec<(usize, Place)> {
+        let mut found = Vec::new();
+        for (i, pair) in before.left.iter().zip(&after.left).enumerate() {
+            let (Some(a), Some(b)) = pair else { continue };
+            // Zero at the start of a step was seen at the end of the one before.
+            if (a * b >= 0.0 && *b != 0.0) || *a == 0.0 {
+                continue;
+            }
+            if let Some(place) = self.zero(traced, walker, i, (*a, *b), whole) {
+                found.push((i, place));
+            }
+        }
+        found
+    }
+
+    /// The place within the last step where a watched quantity has its value, by the Illinois rule.
+    fn zero(
+        &self,
+        traced: &mut Traced<'_>,
+        walker: &mut Walker,
+        which: usize,
+        (mut fa, mut fb): (f64, f64),
+        whole: f64,
+    ) -> Option<Place> {
+        let size = fa.abs().max(fb.abs());
+        let (mut a, mut b) = (0.0, whole);
+        let mut side = 0;
+        let mut best = None;
+        for _ in 0..TRIES {
+            let part = (a * fb - b * fa) / (fb - fa);
+            let place = walker.between(traced, part).ok()?;
+            let f = self.reader.read(traced).left[which]?;
+            best = Some(place);
+            if f.abs() <= 1e-13 * size || (b - a).abs() < 1e-13 {
+                break;
+            }
+            if f * fb > 0.0 {
+                (b, fb) = (part, f);
+                if side == 1 {
+                    fa *= 0.5;
+                }
+                side = 1;
+            } else {
+                (a, fa) = (part, f);
+                if side == -1 {
+                    fb *= 0.5;
+                }
+                side = -1;
+            }
+        }
+        best
+    }
+
+    /// Reports what was passed; true if the leg stops there.
+    fn report(
+        &self,
+        traced: &mut Traced<'_>,
+        walker: &mut Walker,
+        mut passed: Passed,
+        mut error: f64,
+        leg: &mut Leg,
+    ) -> bool {
+        walker.disturbed();
+        let part = match &passed {
+            Passed::Special(special) => walker.part_of(traced, &special.point),
+            Passed::Watched(_, place) => walker.part_of(traced, &place.point),
+        };
+        let mesh = traced.problem().mesh_accuracy();
+        if let Passed::Special(special) = &mut passed {
+            error = self.sharpened(traced, special);
+        }
+        let (at, kind, index) = match &passed {
+            Passed::Special(special) => {
+                let kind = special.crossing.map_or(PointKind::Fold, |met| PointKind::Branch(crossing(met)));
+                (&special.point, kind, None)
+            }
+            Passed::Watched(i, place) if *i < self.events => {
+                (&place.point, PointKind::Event(*i), place.index)
+            }
+            Passed::Watched(_, place) => (&place.point, PointKind::End, place.index),
+        };
+        if at.restore(traced).is_err() {
+            return false;
+        }
+        let reading = self.reader.read(traced);
+        let arc = walker.arc_at(part);
+        let mut point = TracePoint {
+            parameter: traced.axes[0].value(at.parameters[0]),
+            arc,
+            kind,
+            outputs: reading.outputs,
+            error_estimate: error,
+            stable: index.map(|count| count == 0),
+            unstable_directions: index,
+            solution: None,
+            directions: Vec::new(),
+        };
+        self.keep(traced, walker, &mut point);
+        if let Passed::Special(special) = &passed {
+            point.directions =
+                special.kernel.iter().map(|step| self.reader.direction(traced.problem(), step)).collect();
+            leg.met.push(Met {
+                at: leg.points.len(),
+                snapshot: (self.study.branches > 0 || self.study.critical.is_some())
+                    .then(|| traced.snapshot()),
+                point: special.point.clone(),
+                branches: special.branches.clone(),
+                fold: special.crossing.is_none(),
+                simple: special.kernel.len() == 1,
+            });
+        }
+        leg.points.push(point);
+        if traced.problem().mesh_accuracy() != mesh {
+            traced.refine(mesh);
+        }
+        self.stops(&passed, leg)
+    }
+
+    /// Finds a critical point again on finer meshes, until it stands still; the error that is left. Where a tangent loses its
+    /// rank depends on the mesh even where the state does not.
+    fn sharpened(&self, traced: &mut Traced<'_>, special: &mut Special) -> f64 {
+        let mut error = f64::INFINITY;
+        for _ in 0..REFINEMENTS {
+            traced.finer();
+            let Ok(found) = sharpen(traced, special) else { return error };
+            let moved = between(traced, &special.point, &found.point).size(traced.problem());
+            *special = found;
+            error = moved / GAIN + 1e-13;
+            if error <= self.tolerance {
+                break;
+            }
+        }
+        error
+    }
+
+    /// Is the last point of the leg one at which it is to stop?
+    fn stops(&self, passed: &Passed, leg: &Leg) -> bool {
+        if let Passed::Watched(i, _) = passed
+            && *i >= self.events
+        {
+            return true;
+        }
+        let count =
+            |wanted: &dyn Fn(&PointKind) -> bool| leg.points.iter().filter(|p| wanted(&p.kind)).count();
+        let last = leg.points.last().map(|p| &p.kind);
+        self.study.stops.iter().any(|stop| match stop {
+            Stop::Value(_) => false,
+            Stop::Fold(n) => last == Some(&PointKind::Fold) && count(&|k| *k == PointKind::Fold) >= *n,
+            Stop::Branch(n) => {
+                let is_branch = |k: &PointKind| matches!(k, PointKind::Branch(_));
+                last.is_some_and(is_branch) && count(&is_branch) >= *n
+            }
+            Stop::Event(n) => count(&|k| !matches!(k, PointKind::Regular | PointKind::End)) >= *n,
+        })
+    }
+}
+
+pub(crate) fn stalled(stall: &Stall) -> BranchEnd {
+    BranchEnd::Stalled(match stall {
+        Stall::Short => {
+            "the steps along the path became too short: something jumps there, or many critical points lie close together"
+                .to_string()
+        }
+        Stall::Parameter(why) => why.clone(),
+    })
+}

@@ -1,0 +1,167 @@
+//! Points of a path as they are reported.
+
+use super::problem::Traced;
+use flexura_continuation::{Crossing as Met, Place};
+use flexura_equilibrium::Equilibrium;
+use flexura_model::{BeamPoint, Output, ProbeTarget, Target};
+use flexura_nonlinear::System;
+use flexura_post::OutputValue;
+use flexura_solution::{Crossing, Direction, PointKind, Solution, TracePoint};
+use flexura_spatial::Twist;
+
+/// Samples of beams where only outputs are wanted.
+const FEW: usize = 2;
+/// Size of the step by which a direction is sampled.
+const SHIFT: f64 = 1e-5;
+
+/// What is read off at every point.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Reading {
+    pub outputs: Vec<Option<Vec<f64>>>,
+    /// How far every watched quantity is from its value.
+    pub left: Vec<Option<f64>>,
+}
+
+/// Reads outputs and watched quantities.
+pub(crate) struct Reader {
+    /// Events and stops.
+    pub watched: Vec<Target>,
+    /// Samples along each beam of a state that is kept.
+    pub samples: usize,
+}
+
+impl Reader {
+    /// Places on beams that the watched quantities look at.
+    pub fn places(&self) -> Vec<BeamPoint> {
+        let probes = self.watched.iter().flat_map(|target| &target.output.probes);
+        probes
+            .filter_map(|probe| match probe.target {
+                ProbeTarget::Beam(beam, at) => Some(BeamPoint { beam, at }),
+                _ => None,
+            })
+            .collect()
+    }
+
+    /// Outputs and watched quantities of the present state.
+    pub fn read(&self, traced: &mut Traced<'_>) -> Reading {
+        let prepared = &mut traced.prepared;
+        let model = prepared.problem.model();
+        let outputs: Vec<&Output> =
+            model.outputs.iter().chain(self.watched.iter().map(|target| &target.output)).collect();
+        let probes = || outputs.iter().flat_map(|output| &output.probes);
+        let energies = probes().any(|probe| probe.quantity == flexura_model::Quantity::Energy);
+        let beams: Vec<usize> = probes()
+            .filter_map(|probe| match probe.target {
+                ProbeTarget::Beam(beam, _) => Some(beam.0),
+                _ => None,
+            })
+            .collect();
+        let mut solution = prepared.problem.sampled(FEW, energies, |beam| beams.contains(&beam));
+        prepared.add_tangents(&mut solution, &[]);
+        self.read_from(prepared.problem.model(), &solution)
+    }
+
+    fn read_from(&self, model: &flexura_model::Model, solution: &Solution) -> Reading {
+        let list = |value: OutputValue| match value {
+            OutputValue::Number(v) => vec![v],
+            OutputValue::Vector(v) => v.to_vec(),
+        };
+        let outputs = flexura_post::each_output(model, solution);
+        let outputs = outputs.into_iter().map(|result| result.ok().map(|r| list(r.value))).collect();
+        let left = self
+            .watched
+            .iter()
+            .map(|target| {
+                let value = flexura_post::one_output(model, solution, &target.output).ok()?.value;
+                match value {
+                    OutputValue::Number(v) => Some(v - target.value),
+                    OutputValue::Vector(_) => None,
+                }
+            })
+            .collect();
+        Reading { outputs, left }
+    }
+
+    /// The whole present state.
+    pub fn whole(&self, traced: &mut Traced<'_>, index: Option<usize>, error: f64) -> Solution {
+        let mut solution = traced.prepared.problem.solution(self.samples);
+        traced.prepared.add_tangents(&mut solution, &[]);
+        solution.error_estimate = error;
+        solution.unstable_directions = index;
+        solution.stable = index.map(|count| count == 0);
+        solution.stability_reason = match index {
+            Some(_) => None,
+            None => Some(traced.undecided.clone().unwrap_or_else(|| CRITICAL.to_string())),
+        };
+        solution
+    }
+
+    /// A small motion along a step of the state, sampled like a whole state.
+    pub fn direction(&self, problem: &mut Equilibrium, step: &[f64]) -> Direction {
+        let mut kept = Vec::new();
+        problem.store(&mut kept);
+        let size = problem.size(step).max(f64::MIN_POSITIVE);
+        let mut sides = Vec::with_capacity(2);
+        for sign in [1.0, -1.0] {
+            let small: Vec<f64> = step.iter().map(|s| sign * SHIFT / size * s).collect();
+            problem.retract(&small);
+            sides.push(problem.sampled(self.samples, true, |_| true));
+            problem.restore(&kept);
+        }
+        let twist = |up: &flexura_spatial::Pose, down: &flexura_spatial::Pose| Twist {
+            angular: flexura_spatial::log(&(up.rotation * down.rotation.inverse())),
+            linear: up.position - down.position,
+        };
+        let beams = sides[0].beams.iter().zip(&sides[1].beams).map(|(up, down)| {
+            up.samples.iter().zip(&down.samples).map(|(u, d)| twist(&u.pose, &d.pose)).collect::<Vec<_>>()
+        });
+        let mut direction = Direction {
+            beams: beams.collect(),
+            bodies: sides[0].bodies.iter().zip(&sides[1].bodies).map(|(u, d)| twist(u, d)).collect(),
+        };
+        normalise(&mut direction, problem.units().0);
+        direction
+    }
+}
+
+/// Why a point itself has no verdict.
+const CRITICAL: &str = "the equilibrium is critical: a direction gives way without resistance";
+
+/// The largest displacement one metre; where it is nothing beside the turning, the largest turning one radian.
+fn normalise(direction: &mut Direction, length: f64) {
+    let twists = || direction.beams.iter().flatten().chain(&direction.bodies);
+    let shift = twists().map(|t| t.linear.norm()).fold(0.0, f64::max);
+    let turn = twists().map(|t| t.angular.norm()).fold(0.0, f64::max);
+    let size = if shift > 1e-6 * turn * length { shift } else { turn };
+    if size > 0.0 {
+        for twist in direction.beams.iter_mut().flatten().chain(&mut direction.bodies) {
+            twist.linear /= size;
+            twist.angular /= size;
+        }
+    }
+}
+
+pub(crate) fn crossing(met: Met) -> Crossing {
+    match met {
+        Met::SupercriticalPitchfork => Crossing::SupercriticalPitchfork,
+        Met::SubcriticalPitchfork => Crossing::SubcriticalPitchfork,
+        Met::Pitchfork => Crossing::Pitchfork,
+        Met::Transcritical => Crossing::Transcritical,
+        Met::Multiple(count) => Crossing::Multiple(count),
+    }
+}
+
+/// A regular point.
+pub(crate) fn regular(value: f64, place: &Place, reading: Reading, error: f64) -> TracePoint {
+    TracePoint {
+        parameter: value,
+        arc: place.arc,
+        kind: PointKind::Regular,
+        outputs: reading.outputs,
+        error_estimate: error,
+        stable: place.index.map(|count| count == 0),
+        unstable_directions: place.index,
+        solution: None,
+        directions: Vec::new(),
+    }
+}
