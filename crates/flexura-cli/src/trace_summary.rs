@@ -13,6 +13,8 @@ use flexura::solution::{
 const MOST_ROWS: usize = 40;
 /// Rows of the critical curve.
 const CRITICAL_ROWS: usize = 12;
+/// Points of two branches that differ by less than this part are one.
+const SAME: f64 = 1e-6;
 /// Columns for outputs, so that a row fits on a screen.
 const MOST_OUTPUTS: usize = 4;
 
@@ -118,9 +120,7 @@ impl Names<'_> {
         let mut table = Table::new(&headings);
         for (b, branch) in self.trace.branches.iter().enumerate() {
             for (p, point) in branch.points.iter().enumerate() {
-                // Where a branch comes from is told with the other.
-                let is_told = p == 0 && matches!(branch.origin, BranchOrigin::Switched { .. });
-                if !point.kind.is_special() || (is_told && point.kind.is_critical()) {
+                if !point.kind.is_special() || self.is_told(branch.origin, point) {
                     continue;
                 }
                 let mut row =
@@ -131,6 +131,21 @@ impl Names<'_> {
             }
         }
         table
+    }
+
+    /// Is it the point from which its branch comes, which is told with the other branch?
+    fn is_told(&self, origin: BranchOrigin, point: &TracePoint) -> bool {
+        let BranchOrigin::Switched { branch, point: number } = origin else { return false };
+        let other = self.trace.branches.get(branch).and_then(|branch| branch.points.get(number));
+        let same = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
+        other.is_some_and(|other| {
+            let values = point.outputs.iter().flatten().flatten();
+            let others = other.outputs.iter().flatten().flatten();
+            matches!(point.kind, PointKind::Branch(_))
+                && same(point.parameter, other.parameter)
+                // Noise beside zero may differ.
+                && values.zip(others).all(|(a, b)| same(*a, *b) || (a - b).abs() < point.error_estimate)
+        })
     }
 
     fn kind(&self, kind: &PointKind) -> String {

@@ -14,7 +14,7 @@ pub struct FileFamily<'a> {
 
 impl<'a> FileFamily<'a> {
     /// The family of the models that `document` makes; `model` is the one made with the overrides. The others have its
-    /// studies, in the same order, with events as they are for their parameters.
+    /// studies.
     pub fn new(document: &'a Document, overrides: &[(String, String)], model: &Model) -> Self {
         Self {
             document,

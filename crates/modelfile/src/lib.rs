@@ -136,8 +136,7 @@ impl Document {
         })
     }
 
-    /// [`Document::model`] beside another one of this file that has these studies: they are there in the same order, and
-    /// where they read well with the values at hand, they have them.
+    /// [`Document::model`] beside another one of this file, whose studies it takes over as they are.
     pub fn model_beside(&self, overrides: &[(String, String)], studies: &[Study]) -> Result<Model, Report> {
         self.build(overrides, Some(studies), |model, context| match model {
             Some(model) => Ok(model),

@@ -2,9 +2,10 @@
 #![allow(clippy::unwrap_used)]
 
 use flexura_model::{
-    BuckleStudy, CriticalStudy, Model, ProbeTarget, Quantity, Stop, StudyKind, Target, TraceStudy,
+    BuckleStudy, CriticalStudy, Model, Probe, ProbeTarget, Quantity, Stop, StudyKind, Target, TraceStudy,
 };
 use flexura_modelfile::{Document, Flag};
+use proptest::prelude::*;
 
 const MECHANISM: &str = r#"
 format = 1
@@ -39,6 +40,7 @@ force = ["-push - bare", 0, "push*sin(slope)"]
 [output]
 w = "beam.link[0.5].position.z"
 tip = "beam.link[0.5].position"
+ratio = "beam.link[0.5].position.z/depth"
 "#;
 
 fn document(studies: &str) -> Document {
@@ -82,7 +84,7 @@ start = "45 deg"
 steps = "40 + 60"
 most_points = 500
 branches = true
-event = ["output.w = depth/2", "joint.way.coordinate + beam.link.end.position.x - output.tip.x = -0.01", "output.w/depth = 1"]
+event = ["output.w = depth/2", "joint.way.coordinate + beam.link.end.position.x - output.tip.x = -0.01", "output.w/depth = 1", "output.ratio = 0.5"]
 stop = ["fold", "fold 2", " branch  1 ", "event 3", "output.tip.z = 30 mm"]
 guesses = 20
 imperfection = { parameter = "push", from = "0.1 N" }
@@ -103,14 +105,23 @@ critical = { parameter = "depth", range = ["30 mm", "10 mm"], number = 2 }
         .iter()
         .map(|event| (event.output.name.as_str(), event.value, event.output.probes.len()))
         .collect();
-    assert_eq!(events[0], ("output.w = depth/2", 0.01, 1));
+    // A value that hangs on a parameter is brought to the left, where the parameter is read at every point.
+    assert_eq!(events[0], ("output.w = depth/2", 0.0, 2));
+    let parameter =
+        |component| Probe { target: ProbeTarget::Model, quantity: Quantity::Parameter, component };
+    let output = &trace.events[0].output;
+    assert_eq!((output.probes[1], output.unit.as_str()), (parameter(2), "m"));
+    assert!(close(output.formulas[0].evaluate(&[0.03, 0.02]), 0.02));
+    assert!(matches!(output.probes[0].target, ProbeTarget::Beam(..)));
+    assert_eq!((output.probes[0].quantity, output.probes[0].component), (Quantity::Position, 2));
     // An output brings all of its components along.
     assert_eq!((events[1].1, events[1].2), (-0.01, 5));
-    // The left side knows the parameters too: w over 20 mm.
-    assert!(close(trace.events[2].output.formulas[0].evaluate(&[0.01]), 0.5));
-    let Target { output, value } = &trace.events[0];
-    assert!(matches!(output.probes[0].target, ProbeTarget::Beam(..)) && close(*value, 0.01));
-    assert_eq!((output.probes[0].quantity, output.probes[0].component), (Quantity::Position, 2));
+    let output = &trace.events[2].output;
+    assert_eq!((output.probes[1], trace.events[2].value), (parameter(2), 1.0));
+    assert!(close(output.formulas[0].evaluate(&[0.01, 0.04]), 0.25));
+    // And so within an output that an event refers to.
+    let Target { output, value } = &trace.events[3];
+    assert!(output.probes.contains(&parameter(2)) && *value == 0.5);
 
     assert_eq!(trace.stops[..4], [Stop::Fold(1), Stop::Fold(2), Stop::Branch(1), Stop::Event(3)]);
     let Stop::Value(target) = &trace.stops[4] else { panic!("{:?}", trace.stops[4]) };
@@ -152,27 +163,22 @@ fn studies_are_repeated_like_every_named_table() {
 }
 
 #[test]
-fn a_neighbouring_model_keeps_the_studies_and_moves_their_events() {
-    let text = r#"
-[study.first]
-kind = "trace"
-parameter = "depth"
-range = ["10 mm", "depth + 20 mm"]
-event = "output.w = depth/2"
-[study.second]
-kind = "trace"
-parameter = "depth"
-range = ["depth", "30 mm"]
-event = "output.w = depth"
-"#;
+fn a_neighbouring_model_keeps_the_studies_though_a_range_loses_its_length() {
+    let text = "[study.path]\nkind = \"trace\"\nparameter = \"depth\"\nrange = [\"depth\", \"30 mm\"]\n";
     let document = document(text);
     let base = document.model(&[]).unwrap();
-    let beside = document.model_beside(&[("depth".into(), "30 mm".into())], &base.studies).unwrap();
-    assert_eq!(trace_of(&beside, 0).events[0].value, 0.015);
-    assert_eq!(trace_of(&beside, 0).range[1], 0.05);
-    // The range of the second has no length any more: it stays what it was.
-    assert_eq!(beside.studies[1], base.studies[1]);
-    assert!(document.model(&[("depth".into(), "30 mm".into())]).is_err());
+    let other = [("depth".to_string(), "30 mm".to_string())];
+    let beside = document.model_beside(&other, &base.studies).unwrap();
+    assert_eq!((&beside.studies, beside.parameters[2].value), (&base.studies, 0.03));
+    assert!(document.model(&other).is_err());
+}
+
+#[test]
+fn a_power_that_needs_its_parameter_keeps_its_value_in_an_output() {
+    let text = "cubed = \"body.slider.position.x^bare\"\n[study.path]\nkind = \"trace\"\nparameter = \"push\"\nrange = [0, 1]\nevent = \"output.cubed = 1 m^3\"\n";
+    let model = model(text);
+    let event = &trace_of(&model, 0).events[0];
+    assert!(close(event.output.formulas[0].evaluate(&[2.0]), 8.0) && event.output.probes.len() == 1);
 }
 
 fn flags(list: &[(&'static str, &str)]) -> Vec<Flag> {
@@ -272,4 +278,100 @@ fn flags_of_another_form_are_refused() {
     }
     let shown = refusal("buckle", &[("at", "2 N")]);
     assert!(shown.contains("it is a fraction of the load"), "{shown}");
+}
+
+const STUDIES: &str = r#"
+[study."path_{i}"]
+repeat = { i = 2 }
+kind = "trace"
+parameter = "push"
+range = ["{i} N", "depth/(1 mm)*1 N"]
+start = "3 N"
+steps = 40
+most_points = "10*bare"
+branches = true
+event = ["output.w = depth/2", "output.tip.x - joint.way.coordinate = 0.1"]
+stop = ["fold {i+1}", "event 3", "output.ratio = 0.5"]
+guesses = 3
+imperfection = { parameter = "slope", from = "100 deg" }
+critical = { parameter = "depth", range = ["10 mm", "30 mm"], number = 2 }
+[study.buckling]
+kind = "buckle"
+parameter = "push"
+at = "1 N"
+count = 2
+"#;
+
+fn check(text: &str) {
+    match Document::parse(text, "mutilated.toml").and_then(|document| document.model(&[])) {
+        Ok(model) => assert!(model.validate().is_empty()),
+        Err(report) => {
+            for problem in report.problems() {
+                assert!(text.get(problem.span.clone()).is_some());
+            }
+            assert!(report.render(true).starts_with('\u{1b}'));
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn mutilated_studies_never_panic(
+        edits in prop::collection::vec((0usize..STUDIES.len(), 0u8..4, any::<u8>(), 0usize..STUDIES.len()), 1..5)
+    ) {
+        let mut bytes = STUDIES.as_bytes().to_vec();
+        for (place, what, byte, other) in edits {
+            let place = place % bytes.len();
+            match what {
+                0 => { bytes.remove(place); }
+                1 => bytes.insert(place, byte),
+                2 => bytes[place] = byte,
+                _ => {
+                    let from = other % bytes.len();
+                    let piece: Vec<u8> = bytes[from..(from + 20).min(bytes.len())].to_vec();
+                    bytes.splice(place..place, piece);
+                }
+            }
+        }
+        check(&format!("{MECHANISM}{}", String::from_utf8_lossy(&bytes)));
+    }
+
+    #[test]
+    fn values_of_studies_exchanged_for_others_never_panic(
+        line in 0usize..STUDIES.lines().count(),
+        value in prop::sample::select(vec![
+            "1", "-1", "0", "inf", "nan", "1e300", "2.5", "\"\"", "\"x\"", "\"1 N\"", "\"=\"", "\"=1\"", "\"output.w=\"", "[]", "[1, 2, 3]",
+            "[[1]]", "{}", "{ parameter = 3 }", "true", "1979-05-27", "[\"fold\", 3]", "\"output.tip = 1 mm\"", "\"push = push\"",
+            "\"output.w^bare = 1\"", "\"beam.link[depth].position.x = depth\"", "[\"1 N\", \"1/0\"]", "\"é = ü\"",
+        ]),
+    ) {
+        let text: Vec<String> = STUDIES.lines().enumerate().map(|(i, old)| match old.split_once(" = ") {
+            Some((key, _)) if i == line => format!("{key} = {value}"),
+            _ => old.to_string(),
+        }).collect();
+        check(&format!("{MECHANISM}{}", text.join("\n")));
+    }
+
+    #[test]
+    fn strange_flags_never_panic(
+        flag in prop::sample::select(vec![
+            "parameter", "range", "start", "steps", "branches", "event", "stop", "imperfection", "critical", "critical-number",
+        ]),
+        value in "[a-z0-9=:.,()\\[\\] '\"é-]{0,12}",
+    ) {
+        let good = [("parameter", "push"), ("range", "0:1"), ("critical", "slope=0:1")];
+        let mut typed: Vec<Flag> = good
+            .into_iter()
+            .filter(|(name, _)| *name != flag)
+            .map(|(name, value)| (name, Some(value.to_owned())))
+            .collect();
+        typed.push((flag, Some(value)));
+        let document = Document::parse(&format!("{MECHANISM}{STUDIES}"), "x.toml").unwrap();
+        match document.with_study("trace", &typed).and_then(|document| document.model(&[])) {
+            Ok(model) => prop_assert_eq!(model.studies.len(), 4),
+            Err(report) => prop_assert!(report.render(false).starts_with("error: ")),
+        }
+    }
 }

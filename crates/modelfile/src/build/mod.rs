@@ -32,7 +32,7 @@ pub(crate) fn parameters(context: &mut Context<'_>, overrides: &[(String, String
 }
 
 /// Reads the whole file. None: something is wrong, which has been recorded. With the studies of another model, it is one
-/// beside that.
+/// beside that: they are not read again, as the range of a path may lose its length when its parameter changes.
 pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<Model> {
     let root = context.root;
     let file = Reader::open_node(context, root, &(0..0), &FILE, "").ok()?;
@@ -94,7 +94,7 @@ pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<M
         return None;
     }
     if let Some(studies) = beside {
-        model.studies = study::studies_beside(context, &model, &outputs, studies);
+        model.studies = studies.to_vec();
     }
     Some(model)
 }

@@ -1,6 +1,6 @@
 //! Studies: what is to be done with the mechanism.
 
-use super::result::{Built, event, stop};
+use super::result::{Built, event, live_outputs, stop};
 use super::{name, named_entries, table_of};
 use crate::context::{Context, Needed, Read, Reported, suggest};
 use crate::reader::Reader;
@@ -13,32 +13,16 @@ const BRANCHES: usize = 20;
 
 /// Reads the studies.
 pub(super) fn studies(context: &Context<'_>, model: &Model, outputs: &[Built]) -> Vec<Study> {
-    let entries = named_entries(context, "study").iter();
-    entries
-        .filter_map(|entry| {
-            name(context, "study", entry);
-            study(context, entry, model, outputs).ok()
-        })
-        .collect()
-}
-
-/// The studies of another model of this file in their order, as they are for this one. A range may lose its length as a parameter
-/// changes that is followed between its ends: a study that no longer reads well stays as it is.
-pub(super) fn studies_beside(
-    context: &Context<'_>,
-    model: &Model,
-    outputs: &[Built],
-    others: &[Study],
-) -> Vec<Study> {
     let entries = named_entries(context, "study");
-    let count = context.count();
-    let again = |known: &Study| {
-        let entry = entries.iter().find(|entry| entry.key == known.name)?;
-        let study = study(context, entry, model, outputs).ok();
-        context.forget(count);
-        study.filter(|study| model.study_issues(study).is_empty())
+    if entries.is_empty() {
+        return Vec::new();
+    }
+    let outputs = live_outputs(context, model, outputs);
+    let read = |entry: &Entry| {
+        name(context, "study", entry);
+        study(context, entry, model, &outputs).ok()
     };
-    others.iter().map(|known| again(known).unwrap_or_else(|| known.clone())).collect()
+    entries.iter().filter_map(read).collect()
 }
 
 fn study(context: &Context<'_>, entry: &Entry, model: &Model, outputs: &[Built]) -> Read<Study> {

@@ -4,7 +4,7 @@ use super::axis::{Axis, shown};
 use super::canvas::{Canvas, Style};
 use super::diagram::{Mark, title};
 use super::layout::{LEGEND_LINE, Panel, Sheet};
-use super::scene::Scene;
+use super::scene::{Knot, Scene};
 use super::{COLOURS, FAINT, INK, draw_axes, marks, pieces, shortened};
 use crate::trace::{TraceView, parameter_of};
 use flexura_model::Model;
@@ -12,7 +12,7 @@ use flexura_solution::{Buckling, Direction, Solution};
 use flexura_spatial::{Pose, Twist, Vector3, exp};
 
 /// Shapes between the special ones that are drawn at most.
-const MOST: usize = 60;
+const MOST: usize = 40;
 /// From the first to the last value of the parameter; dark to light, and told apart without colours too.
 const GRADIENT: [[f64; 3]; 5] = [
     [68.0, 1.0, 84.0],
@@ -25,6 +25,8 @@ const GRADIENT: [[f64; 3]; 5] = [
 const BAR: f64 = 180.0;
 /// The largest displacement of a mode, as a part of the mechanism's size.
 const AMPLITUDE: f64 = 0.12;
+/// Most by which a curve turns between two knots, rad.
+const TURN: f64 = 0.3;
 /// Extents below this part of the largest are none.
 const FLAT: f64 = 1e-4;
 
@@ -204,7 +206,7 @@ fn head(canvas: &mut Canvas, sheet: &Sheet, model: &Model, subtitle: &str) {
 fn draw_rest(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
     let style = Style::line(FAINT, 1.2).dashed("5 4");
     for beam in &scene.beams {
-        canvas.curve(&pieces(panel, &beam.initial), &style);
+        canvas.curve(&pieces(panel, &thinned(&beam.initial)), &style);
     }
     for body in &scene.bodies {
         for arm in &body.arms {
@@ -236,8 +238,23 @@ fn draw_state(
         canvas.circle(at, 0.9 * width, colour, &Style::line(colour.to_owned(), 0.5));
     }
     for beam in &scene.beams {
-        canvas.curve(&pieces(panel, &beam.deformed), &style(width));
+        canvas.curve(&pieces(panel, &thinned(&beam.deformed)), &style(width));
     }
+}
+
+/// As many knots as a curve needs that turns by little between two of them: there are many shapes in one picture.
+fn thinned(knots: &[Knot]) -> Vec<Knot> {
+    let mut kept: Vec<Knot> = Vec::new();
+    for (i, knot) in knots.iter().enumerate() {
+        let is_end = i == 0 || i + 1 == knots.len();
+        // Looked at from one knot further on, so that the piece itself stays within the bound.
+        let turns =
+            |next: &Knot| kept.last().is_some_and(|last| last.derivative.angle(&next.derivative) > TURN);
+        if is_end || knots.get(i + 1).is_some_and(turns) {
+            kept.push(*knot);
+        }
+    }
+    kept
 }
 
 /// What holds the mechanism to the ground.

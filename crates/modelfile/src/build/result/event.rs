@@ -1,15 +1,16 @@
 //! Events and stops of a trace: where a result has a value, and the n-th of what is met.
 
-use super::{Built, Results};
+use super::{Built, Results, slot};
 use crate::context::{Context, Read, Reported};
 use crate::tree::{Node, Value};
-use flexura_expression::{Expression, Kind, nearest};
-use flexura_model::{Model, Stop, Target};
+use flexura_expression::{Binding, Expression, Kind, nearest};
+use flexura_model::{Model, Output, Quantity, Stop, Target};
 
 const EXAMPLE: &str = "for example \"output.w = 10 mm\" or \"joint.way.effort = 0\"";
 const WORDS: [&str; 3] = ["fold", "branch", "event"];
 
-/// Reads `output.w = 10 mm`, which stands in `node`.
+/// Reads `output.w = 10 mm`, which stands in `node`. Its parameters stay open, so that it is the same event at every value
+/// of them; a value on the right that hangs on parameters is brought to the left.
 pub(in crate::build) fn event(
     context: &Context<'_>,
     node: &Node,
@@ -31,35 +32,58 @@ pub(in crate::build) fn event(
     };
     let [left, right] = [part(context, node, 0, sign), part(context, node, sign + 1, text.len())];
     check_right(context, &right, path, text)?;
-    let results = Results { context, model, outputs: Some(outputs) };
-    let Value::Text(left_text) = &left.value else { return Err(Reported) };
+    let results = Results { context, model, outputs: Some(outputs), is_live: true };
+    let (Value::Text(left_text), Value::Text(right_text)) = (&left.value, &right.value) else {
+        return Err(Reported);
+    };
     if let Some(word) = WORDS.iter().find(|word| **word == left_text) {
         let message = format!("`{word}` is no result");
         let hint = format!("to stop at the second one, write \"{word} 2\"");
         return Err(context.wrong_with_hint(&left.span, path, message, hint));
     }
     let built = results.read(&left, path, left_text, text.trim().to_string());
-    let value = match context.quantity(&right, path, false) {
-        Ok(None) => Err(Reported),
-        Ok(Some(value)) => Ok(value),
-        Err(Reported) => Err(Reported),
-    };
-    let (Built { output, kind }, value) = (built?, value?);
-    if output.formulas.len() > 1 {
+    let value = results.read(&right, path, right_text, String::new());
+    let (built, value) = (built?, value?);
+    if built.output.formulas.len() > 1 {
         let message = "an event is about a single number, but this is a vector";
         let hint = format!("name a component, for example \"{left_text}.x = 0\"");
         return Err(context.wrong_with_hint(&left.span, path, message, hint));
     }
-    if output.probes.is_empty() {
+    if built.output.probes.iter().all(|probe| probe.quantity == Quantity::Parameter) {
         let message = "an event must refer to a result, or it never happens";
         return Err(context.wrong_with_hint(&left.span, path, message, results.roots()));
     }
-    if kind != Kind::Plain && !value.kind.fits(&kind.dimension()) {
-        let message = format!("expected {}, found {}", kind.dimension(), value.kind.dimension());
+    if built.kind != Kind::Plain && !value.kind.fits(&built.kind.dimension()) {
+        let message = format!("expected {}, found {}", built.kind.dimension(), value.kind.dimension());
         let hint = "the value has the dimension of the result";
         return Err(context.wrong_with_hint(&right.span, path, message, hint));
     }
-    Ok(Target { output, value: value.value })
+    if !value.output.probes.is_empty() {
+        return Ok(Target { output: difference(built, &value)?, value: 0.0 });
+    }
+    let value = value.output.formulas.first().map_or(f64::NAN, |formula| formula.evaluate(&[]));
+    if !value.is_finite() {
+        return Err(context.wrong(&right.span, path, "must be a finite number"));
+    }
+    Ok(Target { output: built.output, value })
+}
+
+/// What is on the left less what is on the right, where that hangs on parameters.
+fn difference(left: Built, right: &Built) -> Read<Output> {
+    let mut output = left.output;
+    let slots: Vec<usize> =
+        right.output.probes.iter().map(|probe| slot(&mut output.probes, *probe)).collect();
+    let sides = [output.formulas.pop(), right.output.formulas.first().map(|formula| formula.renamed(&slots))];
+    let [Some(left), Some(right)] = sides else { return Err(Reported) };
+    let difference = Expression::parse("left - right").and_then(|expression| {
+        // Their dimensions were compared before.
+        expression.lower(&mut |reference| {
+            let side = if reference.name() == Some("left") { &left } else { &right };
+            Ok(Binding::Formula(side.clone(), Kind::Plain))
+        })
+    });
+    output.formulas.push(difference.map_err(|_| Reported)?.formula());
+    Ok(output)
 }
 
 /// Reads an event, or `fold 2`.
