@@ -8,7 +8,7 @@ use crate::mesh::{Level, SpanMesh};
 use crate::shooting::{Plain, SegmentEnd};
 use flexura_mechanics::joint::Configuration;
 use flexura_model::{BeamPoint, JointKind, LoadId, LoadTarget, Model};
-use flexura_nonlinear::{BLOCK, Breakdown, Chain, Lift, Liftable, Matrix, Symmetric, System};
+use flexura_nonlinear::{BLOCK, Breakdown, Chain, Lift, Liftable, Matrix, System};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, exp, log};
 
 /// A model made ready to be solved, again and again, from rest or from where it stands.
@@ -36,7 +36,7 @@ pub struct Equilibrium {
     lift: Option<Lift>,
     lifted_by: f64,
     /// The second variation.
-    pub(crate) second: Symmetric,
+    pub(crate) second: crate::stability::Second,
     /// An earlier tangent, factorised.
     kept: (Matrix, Vec<Chain>),
     pub(crate) gaps: Vec<Vec<[f64; BLOCK]>>,
@@ -110,7 +110,7 @@ impl Equilibrium {
             factorised: false,
             lift: None,
             lifted_by: 0.0,
-            second: Symmetric::default(),
+            second: crate::stability::Second::default(),
             kept: (Matrix::default(), Vec::new()),
             gaps: Vec::new(),
             r: Vec::new(),

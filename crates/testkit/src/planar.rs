@@ -1,15 +1,11 @@
 //! Planar mechanisms of rigid bodies and uniform beams: the second method for flexure mechanisms.
 //!
-//! Every beam is integrated from its start by its Taylor series; its start wrench and start angle are unknown, as are
-//! the bodies' poses. Newton's method closes the beams at their ends and balances the bodies, all at once and dense,
-//! with differences for the Jacobian. (Series: Corliss and Chang, *ACM Trans. Math. Softw.* 8 (1982) 114.)
-//!
-//! ```text
-//! x' = (1+ε) cos θ   y' = (1+ε) sin θ   θ' = κ + M/EI   M' = y' Fx - x' Fy   ε = (Fx cos θ + Fy sin θ)/EA
-//! ```
-//!
-//! F and M act by the part beyond s on the part before.
+//! Every beam is integrated from its start by its Taylor series ([`crate::taylor`]); its start wrench and start angle are
+//! unknown, as are the bodies' poses. Newton's method closes the beams at their ends and balances the bodies, all at once
+//! and dense, with differences for the Jacobian.
 
+use crate::path::Curve;
+use crate::taylor::Section;
 use nalgebra::{DMatrix, DVector};
 
 /// Where one end of a beam is.
@@ -87,39 +83,19 @@ pub struct NotConverged {
     pub step: f64,
 }
 
-const ORDER: usize = 18;
 const STEPS: usize = 24;
 
 impl Beam {
     /// x, y, θ, M at s = L.
-    fn integrate(&self, start: [f64; 4], force: [f64; 2]) -> [f64; 4] {
-        let h = self.length / STEPS as f64;
-        (0..STEPS).fold(start, |y, _| self.step(y, force, h))
-    }
-
-    fn step(&self, at: [f64; 4], [fx, fy]: [f64; 2], h: f64) -> [f64; 4] {
-        let mut series = [[0.0; ORDER + 1]; 4];
-        let (mut c, mut s) = ([0.0; ORDER + 1], [0.0; ORDER + 1]);
-        let mut length = [0.0; ORDER + 1];
-        let mut slope = [0.0; ORDER + 1];
-        for i in 0..4 {
-            series[i][0] = at[i];
-        }
-        (c[0], s[0]) = (at[2].cos(), at[2].sin());
-        for k in 0..ORDER {
-            let n = (k + 1) as f64;
-            length[k] = self.stretch * (fx * c[k] + fy * s[k]) + if k == 0 { 1.0 } else { 0.0 };
-            slope[k] = series[3][k] / self.bending + if k == 0 { self.curvature } else { 0.0 };
-            let product = |a: &[f64], b: &[f64]| (0..=k).map(|j| a[j] * b[k - j]).sum::<f64>();
-            let (dx, dy) = (product(&length, &c), product(&length, &s));
-            series[0][k + 1] = dx / n;
-            series[1][k + 1] = dy / n;
-            series[2][k + 1] = slope[k] / n;
-            series[3][k + 1] = (dy * fx - dx * fy) / n;
-            let (dc, ds) = (-product(&s, &slope), product(&c, &slope));
-            (c[k + 1], s[k + 1]) = (dc / n, ds / n);
-        }
-        series.map(|terms| terms.iter().rev().fold(0.0, |sum, term| sum * h + term))
+    fn integrate(&self, [x, y, angle, moment]: [f64; 4], [fx, fy]: [f64; 2]) -> [f64; 4] {
+        let section = Section {
+            bending: self.bending,
+            stretch: self.stretch,
+            curvature: self.curvature,
+            load: [0.0; 2],
+        };
+        let [x, y, angle, moment, _, _] = section.carry([x, y, angle, moment, fx, fy], self.length, STEPS);
+        [x, y, angle, moment]
     }
 }
 
@@ -132,6 +108,17 @@ fn place(end: &End, poses: &[[f64; 3]]) -> [f64; 3] {
 }
 
 impl Mechanism {
+    /// The unknowns at rest: x, y, angle of every body (so that coordinate i of body b is number 3b + i), then four numbers of
+    /// every beam.
+    fn at_rest(&self) -> Vec<f64> {
+        let rest: Vec<[f64; 3]> = self.bodies.iter().map(|body| body.rest).collect();
+        let mut unknowns: Vec<f64> = rest.iter().flatten().copied().collect();
+        for beam in &self.beams {
+            unknowns.extend([0.0, 0.0, 0.0, place(&beam.start, &rest)[2]]);
+        }
+        unknowns
+    }
+
     fn poses(&self, unknowns: &[f64]) -> Vec<[f64; 3]> {
         (0..self.bodies.len()).map(|b| [unknowns[3 * b], unknowns[3 * b + 1], unknowns[3 * b + 2]]).collect()
     }
@@ -220,11 +207,7 @@ impl Mechanism {
 /// Newton's method fails on the way.
 pub fn solve(at: &dyn Fn(f64) -> Mechanism, steps: usize) -> Result<Equilibrium, NotConverged> {
     let mut mechanism = at(0.0);
-    let rest: Vec<[f64; 3]> = mechanism.bodies.iter().map(|body| body.rest).collect();
-    let mut unknowns: Vec<f64> = rest.iter().flatten().copied().collect();
-    for beam in &mechanism.beams {
-        unknowns.extend([0.0, 0.0, 0.0, place(&beam.start, &rest)[2]]);
-    }
+    let mut unknowns = mechanism.at_rest();
     for step in 0..=steps {
         let fraction = step as f64 / steps as f64;
         mechanism = at(fraction);
@@ -233,6 +216,22 @@ pub fn solve(at: &dyn Fn(f64) -> Mechanism, steps: usize) -> Result<Equilibrium,
     let (_, sums, wrenches) = mechanism.evaluate(&unknowns);
     let reactions = sums.iter().map(|sum| sum.map(|value| -value)).collect();
     Ok(Equilibrium { poses: mechanism.poses(&unknowns), reactions, wrenches })
+}
+
+/// The curve of all equilibria of `at(λ)`, with λ of the size `size` as last unknown, and the point of rest at λ = 0. Of the
+/// other unknowns, coordinate i of body b is number 3b + i.
+pub fn curve<'a>(at: impl Fn(f64) -> Mechanism + 'a, size: f64) -> (Curve<'a>, Vec<f64>) {
+    let mechanism = at(0.0);
+    let (length, _) = mechanism.scales();
+    let mut start = mechanism.at_rest();
+    start.push(0.0);
+    let positions = 3 * mechanism.bodies.len();
+    let last = start.len() - 1;
+    let scale = |j: usize| if j < positions && j % 3 < 2 { length } else { 1.0 };
+    let mut scales: Vec<f64> = (0..last).map(scale).collect();
+    scales.push(size);
+    let residual = move |y: &[f64]| at(y[last]).evaluate(&y[..last]).0.iter().copied().collect();
+    (Curve::new(scales, residual), start)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::layout::CoordinateSlot;
 use crate::lower::Hold;
 use crate::shooting::{SegmentEnd, wrench_of};
 use crate::system::Equilibrium;
-use flexura_nonlinear::{BlockPlace, Breakdown, Matrix};
+use flexura_nonlinear::{BlockPlace, Breakdown, Matrix, Symmetric};
 use flexura_spatial::{Twist, Vector3, Wrench};
 use nalgebra::Vector6;
 
@@ -21,20 +21,31 @@ struct Target {
     flipped: bool,
 }
 
+/// The second variation, kept from one use to the next.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Second {
+    /// How many stretches each span is cut into.
+    shape: Vec<usize>,
+    /// What the plain tangents give.
+    plain: Matrix,
+    r: Vec<f64>,
+    pub(super) symmetric: Symmetric,
+}
+
 /// Numbers of what a span adds: η of each stretch, the poses between them, and the pose of a free end.
-struct Numbers {
+pub(super) struct Numbers {
     first: usize,
     stretches: usize,
     free: bool,
 }
 
 impl Numbers {
-    fn wrench(&self, k: usize) -> usize {
+    pub fn wrench(&self, k: usize) -> usize {
         self.first + 12 * k
     }
 
     /// The pose behind stretch `k`; none behind the last where the end is held.
-    fn pose(&self, k: usize) -> Option<usize> {
+    pub fn pose(&self, k: usize) -> Option<usize> {
         (k + 1 < self.stretches || self.free).then_some(self.first + 12 * k + 6)
     }
 
@@ -58,11 +69,25 @@ fn identity(at: usize) -> Motions {
 
 impl Equilibrium {
     /// Negative directions of the second variation under the constraints.
-    pub(super) fn second_variation(&mut self) -> Result<usize, Breakdown> {
+    pub(super) fn unstable_directions(&mut self) -> Result<usize, Breakdown> {
+        let (multipliers, ..) = self.second_variation(1)?;
+        let inertia = self.second.symmetric.factorise()?;
+        if inertia.zero > 0 {
+            return Err(Breakdown::Singular);
+        }
+        inertia.negative.checked_sub(multipliers).ok_or(Breakdown::Singular)
+    }
+
+    /// Assembles the second variation, every smooth stretch of a beam cut into `parts` at least. Returns how many of its
+    /// unknowns are multipliers, and what it was made of.
+    pub(super) fn second_variation(
+        &mut self,
+        parts: usize,
+    ) -> Result<(usize, Vec<Cut>, Vec<Numbers>), Breakdown> {
         let mut end = SegmentEnd::new();
         let mut cuts = Vec::with_capacity(self.lowered.spans.len());
         for span in 0..self.lowered.spans.len() {
-            cuts.push(self.short_stretches(span, &mut end)?);
+            cuts.push(self.short_stretches(span, parts, &mut end)?);
         }
         let mut total = self.layout.interface;
         let mut numbers = Vec::with_capacity(cuts.len());
@@ -72,11 +97,18 @@ impl Equilibrium {
             numbers.push(own);
         }
         let (rows, columns, size, multipliers) = self.targets(&numbers, total);
-        let blocks = self.block_places(&numbers, &columns);
-        let mut plain = Matrix::default();
-        plain.arrange(total, &[BlockPlace { first: 0, count: total, place: [0.0; 3] }]);
-        let mut r = vec![0.0; total];
-        let mut sink = Sink { r: &mut r, matrix: Some(&mut plain) };
+        let shape: Vec<usize> = cuts.iter().map(|cut| cut.forms.len()).collect();
+        let mut second = std::mem::take(&mut self.second);
+        if second.shape != shape || second.plain.size() != total {
+            let one = BlockPlace { first: 0, count: total, place: [0.0; 3] };
+            second.plain.arrange(total, &[one]);
+            second.symmetric.arrange(size, &self.block_places(&numbers, &columns));
+            second.shape = shape;
+        }
+        second.plain.reset();
+        second.symmetric.reset();
+        second.r.resize(total, 0.0);
+        let mut sink = Sink { r: &mut second.r, matrix: Some(&mut second.plain) };
         for joint in 0..self.lowered.joints.len() {
             self.evaluate_joint(joint, &mut sink);
         }
@@ -87,23 +119,16 @@ impl Equilibrium {
         for ((span, cut), own) in cuts.iter().enumerate().zip(&numbers) {
             self.add_span(span, cut, own, &mut sink);
         }
-        let mut symmetric = std::mem::take(&mut self.second);
-        symmetric.arrange(size, &blocks);
-        symmetric.reset();
-        plain.for_each(|i, j, value| {
+        let symmetric = &mut second.symmetric;
+        second.plain.for_each(|i, j, value| {
             let (row, column) = (rows[i], columns[j]);
             if let (Some(i), Some(j)) = (row.at, column.at) {
                 // Rows are minus the energy's derivatives, but for those that are marked.
                 symmetric.add(i, j, if row.flipped { value } else { -value });
             }
         });
-        let inertia = symmetric.factorise();
-        self.second = symmetric;
-        let inertia = inertia?;
-        if inertia.zero > 0 {
-            return Err(Breakdown::Singular);
-        }
-        inertia.negative.checked_sub(multipliers).ok_or(Breakdown::Singular)
+        self.second = second;
+        Ok((multipliers, cuts, numbers))
     }
 
     /// Where rows and columns of the plain tangents stand in the symmetric matrix, its size, and how many of its unknowns are

@@ -35,6 +35,8 @@ fn norm(v: &[f64; 3]) -> f64 {
 /// A span as short stretches.
 pub(super) struct Cut {
     pub forms: Vec<Form>,
+    /// The stretch with which each shooting segment begins.
+    pub segments: Vec<usize>,
     /// The state at the span's start, before any load there.
     pub start: Plain,
     /// The state at its end, after what jumps there.
@@ -42,7 +44,13 @@ pub(super) struct Cut {
 }
 
 impl Equilibrium {
-    pub(super) fn short_stretches(&self, span: usize, end: &mut SegmentEnd) -> Result<Cut, Breakdown> {
+    /// Cuts a span, each smooth stretch of it into `parts` at least.
+    pub(super) fn short_stretches(
+        &self,
+        span: usize,
+        parts: usize,
+        end: &mut SegmentEnd,
+    ) -> Result<Cut, Breakdown> {
         let description = &self.lowered.spans[span];
         let law = &self.lowered.beams[description.beam];
         let mesh = &self.meshes[span];
@@ -54,8 +62,10 @@ impl Equilibrium {
         let level = self.levels[span];
         let start = self.head_state(span);
         let mut forms = Vec::new();
+        let mut segments = Vec::with_capacity(mesh.segments.len());
         let mut here = start;
         for (k, segment) in mesh.segments.iter().enumerate() {
+            segments.push(forms.len());
             if k == 0 {
                 mesh.first_jumps.iter().for_each(|&j| jump(&description.jumps[j], self.load, &mut here));
             } else {
@@ -67,8 +77,9 @@ impl Equilibrium {
                 // From the condition, as a quadratic in the length.
                 let (a, b) = (law.soft() * level.force, law.soft() * (level.moment + level.tendons));
                 let aim = 2.0 * AIM / (b + (b * b + 4.0 * a * AIM).sqrt()).max(1e-300);
-                let count =
-                    (whole / (aim * std::f64::consts::FRAC_PI_2)).ceil().clamp(1.0, MOST_STRETCHES as f64);
+                let count = (whole / (aim * std::f64::consts::FRAC_PI_2))
+                    .ceil()
+                    .clamp(parts as f64, MOST_STRETCHES as f64);
                 let mut width = (last - first) / count;
                 let mut s = first;
                 while s < last {
@@ -107,6 +118,6 @@ impl Equilibrium {
         if !norm(&here.moment).is_finite() {
             return Err(Breakdown::NotFinite);
         }
-        Ok(Cut { forms, start, end: here })
+        Ok(Cut { forms, segments, start, end: here })
     }
 }

@@ -24,6 +24,8 @@ mod mesh;
 mod segment;
 mod undecided;
 
+pub(crate) use assemble::Second;
+
 use crate::system::Equilibrium;
 use flexura_nonlinear::Breakdown;
 
@@ -46,7 +48,7 @@ impl Equilibrium {
             return Ok(Stability::Undecided(reason));
         }
         self.counts.inertias += 1;
-        let negative = self.second_variation()?;
+        let negative = self.unstable_directions()?;
         Ok(Stability::Unstable(negative))
     }
 }

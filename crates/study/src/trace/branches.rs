@@ -63,7 +63,8 @@ pub fn trace(
         Stop::Value(target) => Some(target.clone()),
         _ => None,
     }));
-    let samples = options.samples.min((MOST_SAMPLES / model.beams.len().max(1)).max(FEWEST_SAMPLES));
+    let samples =
+        options.samples.min((MOST_SAMPLES / model.beams.len().max(1)).clamp(FEWEST_SAMPLES, KEPT_SAMPLES));
     let reader = Reader { watched, samples };
     let start = family.model(&[(study.parameter, study.start)])?;
     let mut prepared = Prepared::new(&start)?;
@@ -126,6 +127,7 @@ pub fn trace(
 /// Samples of all beams together, and of each at least, in a state that is kept.
 const MOST_SAMPLES: usize = 20_000;
 const FEWEST_SAMPLES: usize = 5;
+const KEPT_SAMPLES: usize = 41;
 
 /// The path's own limits.
 pub(crate) fn walk_options(follower: &Follower<'_>) -> WalkOptions {

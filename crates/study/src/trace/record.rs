@@ -105,7 +105,7 @@ impl Reader {
         for sign in [1.0, -1.0] {
             let small: Vec<f64> = step.iter().map(|s| sign * SHIFT / size * s).collect();
             problem.retract(&small);
-            sides.push(problem.sampled(self.samples, true, |_| true));
+            sides.push(problem.sampled(self.samples, false, |_| true));
             problem.restore(&kept);
         }
         let twist = |up: &flexura_spatial::Pose, down: &flexura_spatial::Pose| Twist {
