@@ -20,7 +20,7 @@ const MOST_OUTPUTS: usize = 4;
 
 /// The summary as text.
 pub fn render(model: &Model, study: &TraceStudy, trace: &Trace) -> String {
-    let names = Names { model, study, trace, scales: scales(trace) };
+    let names = Names { model, study, trace, scales: scales(trace), largest: largest(model, trace) };
     let mut text = names.headline();
     for table in [names.special_points(), names.branches()] {
         if !table.is_empty() {
@@ -55,11 +55,22 @@ fn scales(trace: &Trace) -> Scales {
     })
 }
 
+fn largest(model: &Model, trace: &Trace) -> Vec<f64> {
+    let points = || trace.branches.iter().flat_map(|branch| &branch.points);
+    let of = |i: usize| {
+        let values = points().filter_map(|point| point.outputs.get(i)?.as_ref()).flatten();
+        values.fold(0.0f64, |largest, value| largest.max(value.abs()))
+    };
+    (0..model.outputs.len()).map(of).collect()
+}
+
 struct Names<'a> {
     model: &'a Model,
     study: &'a TraceStudy,
     trace: &'a Trace,
     scales: Scales,
+    /// Of every output, its largest value on all branches.
+    largest: Vec<f64>,
 }
 
 impl Names<'_> {
@@ -96,13 +107,8 @@ impl Names<'_> {
     fn output_cells(&self, point: &TracePoint) -> Vec<String> {
         let cells = self.outputs().iter().enumerate().map(|(i, output)| {
             // Where symmetry makes something zero, what is left is an error.
-            let scale = match output.unit.as_str() {
-                "m" => self.scales.length,
-                "N" => self.scales.force,
-                "N*m" => self.scales.moment,
-                _ => 0.0,
-            };
-            let quiet = |value: f64| if value.abs() < point.error_estimate * scale { 0.0 } else { value };
+            let noise = self.noise(output, self.largest[i], point.error_estimate);
+            let quiet = |value: f64| if value.abs() < noise { 0.0 } else { value };
             match point.outputs.get(i).and_then(Option::as_deref) {
                 Some([x, y, z]) => vector([*x, *y, *z].map(quiet), &output.unit, 5),
                 Some([value]) => quantity(quiet(*value), &output.unit, 6),
@@ -110,6 +116,18 @@ impl Names<'_> {
             }
         });
         cells.collect()
+    }
+
+    /// Below which a value of an output says nothing, beside the largest that it has and what else has its unit.
+    fn noise(&self, output: &Output, largest: f64, error: f64) -> f64 {
+        let absolute = match output.unit.as_str() {
+            "m" => error * self.scales.length,
+            "N" => error * self.scales.force,
+            "N*m" => error * self.scales.moment,
+            "rad" | "" => 1e-14,
+            _ => 0.0,
+        };
+        absolute.max(1e-10 * largest)
     }
 
     fn special_points(&self) -> Table {

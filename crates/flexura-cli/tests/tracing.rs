@@ -1,4 +1,4 @@
-//! Paths of equilibria, critical loads and the studies of a file: what is typed wrongly.
+//! Paths of equilibria, critical loads and the studies of a file.
 
 // Clippy takes helpers of tests for code that must not panic.
 #![allow(clippy::unwrap_used)]
@@ -163,4 +163,86 @@ fn an_inverse_problem_is_not_traced() {
         &["trace", shown(&path), "--parameter", "force", "--range", "0:1"],
         &["an inverse problem cannot be traced", "--parameter force"],
     );
+}
+
+const COLUMN: &[&str] = &["trace", "euler_clamped_clamped.toml", "--parameter", "push", "--range", "0:45"];
+
+fn document(arguments: &[&str]) -> serde_json::Value {
+    let output = run(arguments);
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{arguments:?}: {}", stderr(&output)))
+}
+
+#[test]
+fn a_trace_tells_where_branches_cross_and_what_is_stable() {
+    let output = run(COLUMN);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let text = stdout(&output);
+    for words in
+        ["converged", "pitchfork, supercritical", "39.4784", "stable → unstable (1)", "45, end of the range"]
+    {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let document = document(&[COLUMN, &["--branches", "2", "--json", "--tolerance", "1e-9"]].concat());
+    assert_eq!((&document["study"], &document["status"]), (&"trace".into(), &"converged".into()));
+    let branches = document["branches"].as_array().unwrap();
+    let points = branches[0]["points"].as_array().unwrap();
+    let crossing = points.iter().find(|point| point["kind"] == "branch").unwrap();
+    let critical = 4.0 * std::f64::consts::PI.powi(2);
+    assert!((crossing["parameter"].as_f64().unwrap() - critical).abs() < 1e-7);
+    for (point, stable) in [(&points[0], true), (&points[points.len() - 1], false)] {
+        assert_eq!((&point["stable"], &point["kind"]), (&stable.into(), &"end".into()));
+        assert!(point["outputs"]["middle"].is_number() && point["beams"].is_object());
+    }
+    assert!(branches.len() > 1 && branches[1]["origin"] == "branch_point");
+}
+
+#[test]
+fn a_trace_writes_its_files() {
+    let folder = folder("a_trace_writes_its_files").join("results");
+    let output = run(&[COLUMN, &["--quiet", "-o", shown(&folder)]].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(output.stdout.is_empty() && output.stderr.is_empty());
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let table = read("path.csv");
+    assert!(table.starts_with("branch,point,kind,push,middle,"), "{table}");
+    assert_eq!(table.lines().filter(|line| line.contains(",branch,")).count(), 1);
+    let document: serde_json::Value = serde_json::from_str(&read("result.json")).unwrap();
+    assert_eq!(document["work"]["points"].as_u64().unwrap() as usize, table.lines().count() - 1);
+    assert!(read("diagram.svg").contains("branch point") && read("shapes.svg").contains("initial shape"));
+    assert!(!folder.join("critical.csv").exists());
+}
+
+#[test]
+fn events_and_stops_are_met() {
+    let flags =
+        ["--branches", "1", "--event", "output.shortening = push/400", "--stop", "output.middle = 0.2"];
+    let document = document(&[COLUMN, &flags, &["--json"]].concat());
+    let branch = document["branches"][1]["points"].as_array().unwrap().clone();
+    let event = branch.iter().find(|point| point["kind"] == "event").unwrap();
+    assert_eq!(event["event"], "output.shortening = push/400");
+    let (push, shortening) = (event["parameter"].as_f64().unwrap(), &event["outputs"]["shortening"]);
+    assert!((shortening.as_f64().unwrap() - push / 400.0).abs() < 1e-7);
+    let ends = document["branches"][1]["ends"].as_array().unwrap();
+    assert!(ends.contains(&"stop".into()), "{ends:?}");
+}
+
+#[test]
+fn a_path_that_is_cut_short_is_told_by_the_exit_code() {
+    let output = run(&[COLUMN, &["--most-points", "4", "--json"]].concat());
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains("most_points"), "{}", stderr(&output));
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_ne!(document["status"], "converged");
+    assert!(document["reason"].is_string());
+}
+
+#[test]
+fn the_traces_of_a_file_are_run() {
+    let study = "[study.path]\nkind = \"trace\"\nparameter = \"force\"\nrange = [\"0 N\", \"10 N\"]\n[study.end]\nkind = \"solve\"\n";
+    let path = file("the_traces_of_a_file_are_run", study);
+    let all = document(&["run", shown(&path), "--json"]);
+    assert_eq!(all["status"], "converged");
+    let last = all["studies"]["path"]["branches"][0]["points"].as_array().unwrap().last().unwrap().clone();
+    let rise = |outputs: &serde_json::Value| outputs["rise"].as_f64().unwrap();
+    assert!((rise(&last["outputs"]) - rise(&all["studies"]["end"]["outputs"])).abs() < 1e-7);
 }

@@ -101,22 +101,31 @@
 //!
 //! # Paths of equilibria
 //!
-//! A study in the file follows equilibria as one parameter changes, past folds and through branch points, and says where they
-//! are stable:
+//! Equilibria are followed as one parameter changes, past folds and through branch points, and it is said where they are
+//! stable:
 //!
-//! ```no_run
+//! ```
+//! use flexura::model::TraceStudy;
 //! use flexura::solution::PointKind;
-//! let traced = flexura::trace_file("strip.toml", &[], Some("path"), &flexura::Options::default())?;
-//! for point in traced.trace.branches.iter().flat_map(|branch| &branch.points) {
-//!     if point.kind == PointKind::Fold {
-//!         println!("turns back at {} N", point.parameter);
-//!     }
-//! }
-//! std::fs::write("diagram.svg", flexura::output::diagram_svg(&traced.view()))?;
+//! use flexura::{FileFamily, Options, modelfile::Document};
+//! # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
+//! let file = Document::read("models/lee_frame.toml")?;
+//! let model = file.model(&[])?;
+//! let load = model.parameters.iter().position(|parameter| parameter.name == "load").expect("the file has it");
+//! let study = TraceStudy { parameter: load, range: [-2.0, 2.5], start: 0.0, ..TraceStudy::default() };
+//! let mut family = FileFamily::new(&file, &[], &model);
+//! let trace = flexura::trace(&model, &mut family, &study, &Options::default(), &mut |_| {})?;
+//! let folds = trace.branches[0].points.iter().filter(|point| point.kind == PointKind::Fold);
+//! let loads: Vec<f64> = folds.map(|point| point.parameter).collect();
+//! // Lee, Manuel and Rossow (1968).
+//! assert!((loads[0] - 1.85567).abs() < 1e-5 && (loads[1] + 0.94144).abs() < 1e-5);
+//!
+//! let picture = flexura::output::diagram_svg(&flexura::trace_view(&model, &study, &trace, &mut family));
+//! assert!(picture.contains("unstable"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`trace`] and [`buckle`] do the same for a model that was built in Rust, with a [`Family`] that makes it again with other values.
+//! A file may hold such studies itself: [`trace_file`] follows one of them, [`buckle_file`] finds critical loads.
 //!
 //! # Results
 //!

@@ -230,8 +230,8 @@ fn the_diagram_has_a_panel_for_each_output_and_a_style_for_each_verdict() {
     for words in [">1: from rest<", ">2: from branch 1<", ">3: found by search<", "3 branches, 33 points"] {
         assert!(text.contains(words), "{words}");
     }
-    // Stable and unstable pieces of the first two branches in four panels: one, three and the same, one, and one.
-    assert_eq!(count(&text, "stroke=\"#0072b2\" stroke-width=\"1.7\" stroke-dasharray=\"5 5\"/>"), 4);
+    // In four panels the first branch is unstable before and behind its second branch point, the second one stable once.
+    assert_eq!(count(&text, "stroke=\"#0072b2\" stroke-width=\"1.7\" stroke-dasharray=\"5 5\"/>"), 2 * 4);
     assert_eq!(count(&text, "stroke=\"#d55e00\" stroke-width=\"2.2\"/>"), 4);
     assert_eq!(count(&text, "stroke=\"#9a9a9a\" stroke-width=\"1.3\"/>"), 4 + 1);
     // The fold in four panels and the legend.

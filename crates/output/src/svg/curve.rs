@@ -67,6 +67,18 @@ pub fn smooth(stations: &[Station]) -> Vec<[[f64; 2]; 4]> {
     (0..stations.len().saturating_sub(1)).map(piece).collect()
 }
 
+/// The same curves from their left end to the right, or from top to bottom.
+pub fn from_the_left(pieces: &[[[f64; 2]; 4]]) -> Vec<[[f64; 2]; 4]> {
+    let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return Vec::new() };
+    let (from, to) = (first[0], last[3]);
+    // Hundredths of a pixel are what is written.
+    let is_backwards = if (from[0] - to[0]).abs() > 0.01 { from[0] > to[0] } else { from[1] > to[1] };
+    if !is_backwards {
+        return pieces.to_vec();
+    }
+    pieces.iter().rev().map(|[a, b, c, d]| [*d, *c, *b, *a]).collect()
+}
+
 /// Change per arc at a station; zero where the arc stands still.
 fn tangent(stations: &[Station], i: usize) -> [f64; 2] {
     let slope = |a: &Station, b: &Station| {
@@ -109,6 +121,17 @@ mod tests {
                 [0, 1].map(|k| (piece[0][k] + 3.0 * piece[1][k] + 3.0 * piece[2][k] + piece[3][k]) / 8.0);
             let expected = at(0.5 * (ends[i] + ends[i + 1])).at;
             assert!((middle[0] - expected[0]).abs() < 1e-12 && (middle[1] - expected[1]).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn curves_that_lie_on_each_other_are_drawn_from_the_same_end() {
+        let at = |arc: f64, x: f64| Station { arc, at: [x, x * x] };
+        let there = smooth(&[at(0.0, 0.0), at(1.0, 1.0), at(2.0, 2.0)]);
+        let back = smooth(&[at(0.0, 2.0), at(1.0, 1.0), at(2.0, 0.0)]);
+        assert_eq!(from_the_left(&there), there);
+        for (a, b) in from_the_left(&back).iter().flatten().zip(there.iter().flatten()) {
+            assert!((a[0] - b[0]).hypot(a[1] - b[1]) < 1e-12);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::canvas::{Canvas, Style};
-use super::curve::{Station, Verdict, smooth};
+use super::curve::{Station, Verdict, from_the_left, smooth};
 use super::series::{Series, series};
 use super::{COLOURS, INK, shortened};
 use crate::trace::TraceView;
@@ -133,12 +133,17 @@ fn draw_branch(canvas: &mut Canvas, branch: &Branch, stations: &[Option<Station>
     for run in stations.split(Option::is_none) {
         let known: Vec<Station> = run.iter().flatten().copied().collect();
         let pieces = smooth(&known);
-        let verdict = |i: usize| Verdict::between(&branch.points[first + i], &branch.points[first + i + 1]);
+        let points = &branch.points[first..first + run.len()];
+        let verdict = |i: usize| Verdict::between(&points[i], &points[i + 1]);
         let mut start = 0;
         while start < pieces.len() {
-            let same = (start..pieces.len()).take_while(|i| verdict(*i) == verdict(start)).count();
-            canvas.curve(&pieces[start..start + same], &verdict(start).style(colour));
-            start += same;
+            let goes_on = |i: &usize| verdict(*i) == verdict(start) && !points[*i].kind.is_critical();
+            let more = (start + 1..pieces.len()).take_while(goes_on).count();
+            let end = start + 1 + more;
+            // Halves of a symmetric branch may lie on each other: dashes that begin at the same end cover each other and
+            // do not fill each other's gaps.
+            canvas.curve(&from_the_left(&pieces[start..end]), &verdict(start).style(colour));
+            start = end;
         }
         first += run.len() + 1;
     }
