@@ -60,7 +60,7 @@ fn constants(v: [f64; 3]) -> [Profile; 3] {
 }
 
 /// Beams between ground and bodies and free, every joint kind, springs on beams and bodies, all loads.
-fn everything() -> Model {
+pub(crate) fn everything() -> Model {
     let mut m = Model { gravity: Vector3::new(0.3, -0.2, -1.0), ..Model::default() };
     m.sections.push(section("s", 1.0));
     m.bodies.push(body("a", [1.0, 0.4, 0.2], [0.2, -0.4, 0.1]));
