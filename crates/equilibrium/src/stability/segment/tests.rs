@@ -1,7 +1,9 @@
 //! The stiffness of a stretch against differences of the carried state, and what Hamilton's equations promise.
 
 use super::*;
-use flexura_mechanics::rod::{Channel, ChannelSample, Coupled, LawTable, LoadSample, Piece, Shearable, Slender};
+use flexura_mechanics::rod::{
+    Channel, ChannelSample, Coupled, LawTable, LoadSample, Piece, Shearable, Slender,
+};
 use flexura_spatial::{Pose, Twist, Wrench, exp, left_jacobian, log};
 use nalgebra::{SMatrix, SVector};
 
@@ -32,6 +34,8 @@ struct Case {
     pulls: Vec<Pull>,
     /// Has every wrench a strain, so that the clamped stiffness exists?
     regular: bool,
+    /// Does it shear, so that this stiffness is moderate?
+    soft: bool,
 }
 
 const LENGTH: f64 = 0.35;
@@ -54,7 +58,8 @@ fn cases() -> Vec<Case> {
     let straight = LawTable::Slender(vec![Slender { k0: [0.0; 3], stretch: 0.0, bend }]);
     let shearable = || LawTable::Shearable(vec![Shearable { k0: K0, shear: [0.02, 0.05, 0.03], bend }]);
     let weight = LoadSample { dead_force: [0.7, -1.9, 1.2], ..LoadSample::default() };
-    let case = |name, laws, loads, regular| Case {
+    let case = |name, laws: LawTable, loads, regular| Case {
+        soft: !matches!(laws, LawTable::Slender(_)),
         name,
         stretch: Stretch {
             s: [0.0, LENGTH],
@@ -77,8 +82,7 @@ fn cases() -> Vec<Case> {
     let mut tendons = case("two tendons", LawTable::Coupled(vec![coupled()]), vec![weight], true);
     let channel = |tendon, offset, slope| Channel { tendon, samples: vec![ChannelSample { offset, slope }] };
     tendons.stretch.channels = vec![channel(0, [0.1, 0.02], [0.0; 2]), channel(1, [-0.05, 0.06], [0.0; 2])];
-    tendons.pulls =
-        [0.9, 0.4].map(|tension| Pull { tension, unknown: false }).to_vec();
+    tendons.pulls = [0.9, 0.4].map(|tension| Pull { tension, unknown: false }).to_vec();
     all.push(tendons);
     all
 }
@@ -109,9 +113,7 @@ fn coordinates(of: &Plain, at: &Plain) -> Vector12 {
     let shift = here.position - home.position;
     let moment = left_jacobian(&turn).transpose() * V::from(of.moment) - V::from(at.moment);
     let force = V::from(of.force) - V::from(at.force);
-    Vector12::from_iterator(
-        turn.iter().chain(shift.iter()).chain(moment.iter()).chain(force.iter()).copied(),
-    )
+    Vector12::from_iterator(turn.iter().chain(shift.iter()).chain(moment.iter()).chain(force.iter()).copied())
 }
 
 fn carried(case: &Case, load: f64, start: &Plain) -> Plain {
@@ -143,7 +145,8 @@ fn blocks(t: &Matrix12) -> [Matrix6<f64>; 4] {
 
 fn form(case: &Case, load: f64, start: &Plain) -> Form {
     let soft = 1.3;
-    Form::new(&case.stretch, soft, (load, &case.pulls), start, &mut SegmentEnd::new()).expect("a short stretch")
+    Form::new(&case.stretch, soft, (load, &case.pulls), start, &mut SegmentEnd::new())
+        .expect("a short stretch")
 }
 
 #[test]
@@ -178,7 +181,7 @@ fn a_load_that_follows_the_section_is_not_symplectic() {
 #[test]
 fn the_stiffness_is_that_of_the_carried_state() {
     let mut random = Random(5);
-    for case in cases().iter().filter(|case| case.regular) {
+    for case in cases().iter().filter(|case| case.soft) {
         for _ in 0..6 {
             let start = random_state(&mut random);
             let [p, q, _, s] = blocks(&transfer(case, 0.8, &start));
@@ -187,9 +190,8 @@ fn the_stiffness_is_that_of_the_carried_state() {
             let wanted = [inverse * p, -inverse.transpose(), s * inverse];
             let size = wanted.iter().map(|m| m.amax()).fold(0.0, f64::max);
             for (found, wanted) in [form.aa, form.ba, form.bb].iter().zip(&wanted) {
-                // Slender stretches answer a wrong length with forces of 1e4 and more.
                 let error = (found - wanted).amax() / size;
-                assert!(error < 2e-4, "{}: {error:.1e}", case.name);
+                assert!(error < 1e-6, "{}: {error:.1e}", case.name);
             }
             assert!((form.aa - form.aa.transpose()).amax() < 1e-9 * size);
         }
