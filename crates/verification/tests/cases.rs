@@ -83,6 +83,12 @@ conforms!(
     tendon_robot,
     two_tubes,
     one_tube,
+    euler_columns,
+    euler_post_buckled,
+    pushed_strip,
+    sensor_strip,
+    sensor_strip_printed,
+    sensor_strip_variants,
 );
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod bend45;
 mod clamped_clamped;
+mod columns;
 mod curves;
 mod deep_arch;
 mod elastica;
@@ -13,6 +14,7 @@ mod four_bar;
 mod frame;
 mod helix_wrench;
 mod joints;
+mod pushed_strip;
 mod robot;
 mod roll_up;
 mod spring;
@@ -46,6 +48,8 @@ pub fn cases() -> Vec<Case> {
         &joints::CASES,
         &tendons::CASES,
         &tubes::CASES,
+        &columns::CASES,
+        &pushed_strip::CASES,
     ]
     .concat()
 }
