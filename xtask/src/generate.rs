@@ -25,7 +25,8 @@ const PICTURES: &[(&str, &[&str])] = &[
 ];
 
 /// The commands that the reference page of the command line describes.
-const VERBS: &[&str] = &["", "solve", "sweep", "check", "examples", "schema", "completions"];
+const VERBS: &[&str] =
+    &["", "solve", "trace", "buckle", "run", "sweep", "check", "examples", "schema", "completions"];
 
 /// A file and what it should hold.
 type Page = (PathBuf, String);

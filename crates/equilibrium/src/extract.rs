@@ -111,7 +111,7 @@ impl Equilibrium {
             energy,
             stable: None,
             unstable_directions: None,
-            stability_reason: Some("stability is not decided by this version".to_string()),
+            stability_reason: Some("stability was not asked for".to_string()),
         }
     }
 

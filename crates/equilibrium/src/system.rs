@@ -396,10 +396,11 @@ impl System for Equilibrium {
         self.evaluate(true)?;
         self.lifted_by = 0.0;
         if let Some(Lift { row, column }) = self.lift {
-            let mut largest = 0.0_f64;
-            self.tangent.for_each(|i, _, value| {
-                if i == row {
-                    largest = largest.max(value.abs())
+            // A row that stands alone may hold nothing else than what vanishes; one is the size of a nondimensional entry.
+            let mut largest = 1.0_f64;
+            self.tangent.for_each(|i, j, value| {
+                if i == row || j == column {
+                    largest = largest.max(value.abs());
                 }
             });
             self.lifted_by = largest;

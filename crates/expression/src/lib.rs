@@ -20,6 +20,7 @@ mod lower;
 mod nearest;
 mod parser;
 mod program;
+mod split;
 mod unit;
 
 pub use dimension::{Dimension, Kind, Quantity};
@@ -28,6 +29,7 @@ pub use expression::{Expression, Reference, Segment};
 pub use function::{Formula, Function};
 pub use lower::{Binding, Lowered};
 pub use nearest::nearest;
+pub use split::split;
 pub use unit::{Unit, UnitEntry, unit, unit_table};
 
 /// The names of the functions that an expression may call, with what they are.

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[command(
     name = "flexura",
     version,
-    after_help = "Start with:\n  flexura examples                        the bundled models\n  flexura examples cantilever_strip       write one of them here\n  flexura solve cantilever_strip.toml     solve it\n  flexura sweep cantilever_strip.toml --vary payload=\"10 g:50 g:5\"\n\nExit codes: 0 converged, 1 not converged, 2 wrong input, 3 the machine failed."
+    after_help = "Start with:\n  flexura examples                        the bundled models\n  flexura examples cantilever_strip       write one of them here\n  flexura solve cantilever_strip.toml     solve it\n  flexura sweep cantilever_strip.toml --vary payload=\"10 g:50 g:5\"\n  flexura trace sensor_clamp.toml --parameter push --range \"0 N:20 N\"\n\nExit codes: 0 converged, 1 not converged, 2 wrong input, 3 the machine failed."
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -20,6 +20,12 @@ pub struct Arguments {
 pub enum Command {
     /// Find the equilibrium and print outputs, stresses and poses
     Solve(SolveArguments),
+    /// Follow the equilibria as one parameter changes: folds, branch points, stability
+    Trace(TraceArguments),
+    /// Find critical loads and the shapes in which the mechanism buckles
+    Buckle(BuckleArguments),
+    /// Do the studies that are written in the file
+    Run(RunArguments),
     /// Solve over a grid of parameters, on all cores, into one table
     Sweep(SweepArguments),
     /// Say what a model is, unknowns against equations, without solving it
@@ -74,6 +80,91 @@ pub struct SolveArguments {
     /// Seed of the random states; the same seed finds the same equilibria [default: 0]
     #[arg(long, value_name = "S", requires = "guesses")]
     pub seed: Option<u64>,
+}
+
+#[derive(Args)]
+pub struct TraceArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// The parameter that changes
+    #[arg(long, value_name = "P")]
+    pub parameter: String,
+    /// Values between which the path is followed, with units: "0 N:40 N"; the first may be the larger
+    #[arg(long, value_name = "A:B", allow_hyphen_values = true)]
+    pub range: String,
+    /// Where the path starts, from rest; inside the range it is followed both ways [default: A]
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub start: Option<String>,
+    /// About how many points a path has at least that goes straight from A to B [default: 40]
+    #[arg(long, value_name = "N")]
+    pub steps: Option<String>,
+    /// Most points of one branch [default: 2000]
+    #[arg(long, value_name = "N")]
+    pub most_points: Option<String>,
+    /// Follow the branches that are met at branch points, at most N, 20 unless given [default: none]
+    #[arg(long, value_name = "N", num_args = 0..=1)]
+    pub branches: Option<Option<String>>,
+    /// Find where a result has a value: "output.w = 10 mm", "joint.way.effort = 0"; may be repeated
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    pub event: Vec<String>,
+    /// End branches at an event, or at the n-th fold, branch point or event: "output.w = 30 mm", fold, "fold 2",
+    /// "branch 1", "event 3"; may be repeated
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    pub stop: Vec<String>,
+    /// Look for branches that hang together with no other by this many random pushes at both ends [default: 0]
+    #[arg(long, value_name = "N")]
+    pub guesses: Option<String>,
+    /// Look for such a branch by leading another parameter from a value that breaks a symmetry to its own
+    #[arg(long, value_name = "P=V")]
+    pub imperfection: Option<String>,
+    /// Follow a fold or branch point as a second parameter changes
+    #[arg(long, value_name = "P=A:B")]
+    pub critical: Option<String>,
+    /// Which of the folds and branch points found, counted from 1 [default: 1]
+    #[arg(long, value_name = "N", requires = "critical")]
+    pub critical_number: Option<String>,
+    /// Write result.json, path.csv, diagram.svg and shapes.svg into this folder, and critical.csv with --critical
+    #[arg(long, short = 'o', value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+}
+
+#[derive(Args)]
+pub struct BuckleArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// The parameter whose critical values are wanted [default: all loads and drives in proportion]
+    #[arg(long, value_name = "P")]
+    pub parameter: Option<String>,
+    /// Its value at the equilibrium about which the problem is linearised; without a parameter, the fraction of the load
+    /// [default: 0]
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub at: Option<String>,
+    /// How many critical values, those nearest to V first [default: 3]
+    #[arg(long, value_name = "N")]
+    pub count: Option<String>,
+    /// Write result.json, modes.csv and shapes.svg into this folder
+    #[arg(long, short = 'o', value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+}
+
+#[derive(Args)]
+pub struct RunArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// The study [default: all of the file, in their order]
+    pub study: Option<String>,
+    /// Write the files of every study into a folder of its name in this one
+    #[arg(long, short = 'o', value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
 }
 
 #[derive(Args)]

@@ -3,7 +3,9 @@
 //! Standard output carries results, standard error everything else. Exit codes: 0 converged, 1 the solver
 //! did not converge, 2 the input is wrong, 3 the machine failed.
 
+mod answer;
 mod arguments;
+mod buckling_summary;
 mod commands;
 mod derivatives;
 mod failure;
@@ -12,6 +14,7 @@ mod quantity;
 mod screen;
 mod summary;
 mod table;
+mod trace_summary;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -27,6 +30,9 @@ fn main() -> ExitCode {
     }));
     let result = match Arguments::parse().command {
         Command::Solve(arguments) => commands::solve::run(&arguments),
+        Command::Trace(arguments) => commands::trace::run(&arguments),
+        Command::Buckle(arguments) => commands::buckle::run(&arguments),
+        Command::Run(arguments) => commands::run::run(&arguments),
         Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Examples(arguments) => commands::examples::run(&arguments),

@@ -1,6 +1,8 @@
 //! Bars on standard error while load stepping or a sweep takes its time.
 
-use flexura::Progress;
+use crate::quantity::quantity;
+use flexura::model::Parameter;
+use flexura::{Progress, TraceProgress};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -40,6 +42,41 @@ impl Meter {
 fn new_bar() -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(TICKS), ProgressDrawTarget::stderr());
     match ProgressStyle::with_template("{percent:>3} % of the load {bar:40} {msg}, {elapsed}") {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
+/// Shows how far the path of a trace has come; nobody knows how long it is.
+pub struct TraceMeter<'a> {
+    meter: Meter,
+    parameter: &'a Parameter,
+}
+
+impl<'a> TraceMeter<'a> {
+    pub fn new(is_quiet: bool, parameter: &'a Parameter) -> Self {
+        Self { meter: Meter::new(is_quiet), parameter }
+    }
+
+    pub fn update(&mut self, progress: TraceProgress) {
+        if !self.meter.is_wanted || self.meter.started.elapsed() < PATIENCE {
+            return;
+        }
+        let bar = self.meter.bar.get_or_insert_with(new_spinner);
+        let value = quantity(progress.parameter, &self.parameter.unit, 4);
+        let (name, points) = (&self.parameter.name, progress.points);
+        bar.set_message(format!("branch {}, {points} points, {name} = {value}", progress.branch + 1));
+        bar.tick();
+    }
+
+    pub fn finish(self) {
+        self.meter.finish();
+    }
+}
+
+fn new_spinner() -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+    match ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
     }

@@ -40,9 +40,13 @@ fn an_override_without_a_value_is_refused() {
 
 #[test]
 fn a_file_that_is_not_there_leaves_standard_output_empty() {
-    for verb in ["solve", "check", "sweep"] {
-        let vary: &[&str] = if verb == "sweep" { &["--vary", "force=1,2"] } else { &[] };
-        let output = run(&[&[verb, "no_such_file.toml", "--json"][..], vary].concat());
+    for verb in ["solve", "check", "sweep", "trace", "buckle", "run"] {
+        let more: &[&str] = match verb {
+            "sweep" => &["--vary", "force=1,2"],
+            "trace" => &["--parameter", "force", "--range", "0:1"],
+            _ => &[],
+        };
+        let output = run(&[&[verb, "no_such_file.toml", "--json"][..], more].concat());
         assert!([2, 3].contains(&code(&output)), "{verb}");
         assert!(output.stdout.is_empty());
         assert!(stderr(&output).contains("no_such_file.toml"), "{}", stderr(&output));
@@ -98,7 +102,18 @@ fn completions_come_for_every_shell() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let output = run(&["completions", shell]);
         assert_eq!(code(&output), 0, "{shell}");
-        for word in ["tolerance", "sweep", "vary", "sensitivity", "compliance", "guesses"] {
+        for word in [
+            "tolerance",
+            "sweep",
+            "vary",
+            "sensitivity",
+            "compliance",
+            "guesses",
+            "trace",
+            "imperfection",
+            "buckle",
+            "run",
+        ] {
             assert!(stdout(&output).contains(word), "{shell}: {word}");
         }
     }
@@ -108,7 +123,18 @@ fn completions_come_for_every_shell() {
 fn help_names_every_verb_and_the_exit_codes() {
     let output = run(&["--help"]);
     assert_eq!(code(&output), 0);
-    for word in ["solve", "sweep", "check", "examples", "schema", "completions", "Exit codes"] {
+    for word in [
+        "solve",
+        "trace",
+        "buckle",
+        "run",
+        "sweep",
+        "check",
+        "examples",
+        "schema",
+        "completions",
+        "Exit codes",
+    ] {
         assert!(stdout(&output).contains(word), "{word}");
     }
 }

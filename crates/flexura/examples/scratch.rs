@@ -79,13 +79,39 @@ fn go(text: &str, over: &[(&str, &str)], study: TraceStudy, name: &str) -> Trace
     t
 }
 
-fn main() {
-    for _ in 0..2 {
-        go(
-            STRIP,
-            &[],
-            TraceStudy { parameter: 0, range: [0.0, 25.0], branches: 5, ..Default::default() },
-            "plain",
-        );
+fn buckle(path: &str, parameter: Option<&str>, at: f64) {
+    let doc = Document::read(path).map_err(|e| e.render(false)).unwrap();
+    let model = doc.model(&[]).map_err(|e| e.render(false)).unwrap();
+    let mut family = FileFamily::new(&doc, &[], &model);
+    let parameter = parameter.map(|p| model.parameters.iter().position(|q| q.name == p).unwrap());
+    let now = std::time::Instant::now();
+    match flexura::buckle(&model, &mut family, &BuckleStudy { parameter, at, count: 4 }, &Options::default())
+    {
+        Ok(b) => {
+            println!("{path} {:?} in {:?}", b.solution.status, now.elapsed());
+            for m in &b.modes {
+                println!("   {} +- {:.1e}", m.value, m.error_estimate);
+            }
+        }
+        Err(e) => println!("{path} {} {}", e.path, e.message),
     }
+}
+fn file(path: &str, parameter: &str, range: [f64; 2], study: TraceStudy) {
+    let text = std::fs::read_to_string(path).unwrap();
+    let doc = Document::parse(&text, path).map_err(|e| e.render(false)).unwrap();
+    let model = doc.model(&[]).map_err(|e| e.render(false)).unwrap();
+    let parameter = model.parameters.iter().position(|q| q.name == parameter).unwrap();
+    go(&text, &[], TraceStudy { parameter, range, start: range[0], ..study }, path);
+}
+fn main() {
+    let a: Vec<String> = std::env::args().collect();
+    if a[1] == "buckle" {
+        buckle(&a[2], (a[3] != "-").then_some(a[3].as_str()), a[4].parse().unwrap());
+        return;
+    }
+    let mut s = TraceStudy { branches: a.get(5).map_or(0, |n| n.parse().unwrap()), ..TraceStudy::default() };
+    if let Some(n) = a.get(6) {
+        s.steps = n.parse().unwrap();
+    }
+    file(&a[1], &a[2], [a[3].parse().unwrap(), a[4].parse().unwrap()], s);
 }

@@ -1,7 +1,7 @@
 //! A model file as a family of models: other values of its parameters make other models.
 
 use crate::ProblemError;
-use crate::model::{Model, Parameter};
+use crate::model::{Model, Parameter, Study};
 use crate::modelfile::Document;
 
 /// A model file with overrides, from which models with any values of the parameters are made.
@@ -9,12 +9,19 @@ pub struct FileFamily<'a> {
     document: &'a Document,
     overrides: Vec<(String, String)>,
     parameters: Vec<Parameter>,
+    studies: Vec<Study>,
 }
 
 impl<'a> FileFamily<'a> {
-    /// The family of the models that `document` makes; `model` is the one made with the overrides.
+    /// The family of the models that `document` makes; `model` is the one made with the overrides. The others have its
+    /// studies.
     pub fn new(document: &'a Document, overrides: &[(String, String)], model: &Model) -> Self {
-        Self { document, overrides: overrides.to_vec(), parameters: model.parameters.clone() }
+        Self {
+            document,
+            overrides: overrides.to_vec(),
+            parameters: model.parameters.clone(),
+            studies: model.studies.clone(),
+        }
     }
 }
 
@@ -27,7 +34,7 @@ impl flexura_study::Family for FileFamily<'_> {
             // The shortest text that reads back as the same number, with the SI unit.
             overrides.push((parameter.name.clone(), format!("{value:e} {}", parameter.unit)));
         }
-        self.document.model(&overrides).map_err(|report| {
+        self.document.model_beside(&overrides, &self.studies).map_err(|report| {
             let names: Vec<&str> = values.iter().map(|(p, _)| self.parameters[*p].name.as_str()).collect();
             ProblemError::new(
                 format!("parameter.{}", names.first().unwrap_or(&"")),

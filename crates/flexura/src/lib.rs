@@ -99,6 +99,34 @@
 //!
 //! Whole grids over the parameters of a file are solved by a [`Sweep`], on all cores.
 //!
+//! # Paths of equilibria
+//!
+//! Equilibria are followed as one parameter changes, past folds and through branch points, and it is said where they are
+//! stable:
+//!
+//! ```
+//! use flexura::model::TraceStudy;
+//! use flexura::solution::PointKind;
+//! use flexura::{FileFamily, Options, modelfile::Document};
+//! # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
+//! let file = Document::read("models/lee_frame.toml")?;
+//! let model = file.model(&[])?;
+//! let load = model.parameters.iter().position(|parameter| parameter.name == "load").expect("the file has it");
+//! let study = TraceStudy { parameter: load, range: [-2.0, 2.5], start: 0.0, ..TraceStudy::default() };
+//! let mut family = FileFamily::new(&file, &[], &model);
+//! let trace = flexura::trace(&model, &mut family, &study, &Options::default(), &mut |_| {})?;
+//! let folds = trace.branches[0].points.iter().filter(|point| point.kind == PointKind::Fold);
+//! let loads: Vec<f64> = folds.map(|point| point.parameter).collect();
+//! // Lee, Manuel and Rossow (1968).
+//! assert!((loads[0] - 1.85567).abs() < 1e-5 && (loads[1] + 0.94144).abs() < 1e-5);
+//!
+//! let picture = flexura::output::diagram_svg(&flexura::trace_view(&model, &study, &trace, &mut family));
+//! assert!(picture.contains("unstable"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A file may hold such studies itself: [`trace_file`] follows one of them, [`buckle_file`] finds critical loads.
+//!
 //! # Results
 //!
 //! Not converging is no error: [`solution::Status`] says how a study ended, and the solution holds how far
@@ -109,6 +137,7 @@ mod family;
 mod places;
 mod solve_file;
 mod sweep;
+mod trace_file;
 
 pub use family::FileFamily;
 pub use places::place;
@@ -127,3 +156,4 @@ pub use flexura_study::{
     TraceProgress, buckle, check, equilibria, solve, solve_family, trace,
 };
 pub use solve_file::{Error, Solved, solve_file};
+pub use trace_file::{Buckled, Traced, buckle_file, study_named, trace_file, trace_view};

@@ -3,7 +3,7 @@
 //! Every sample is a solve of its own, from rest, so that its numbers depend neither on its neighbours nor on how many
 //! threads share the work.
 
-use crate::expression::{Dimension, Expression, ExpressionError, Kind};
+use crate::expression::{Dimension, Expression, ExpressionError, Kind, split};
 use crate::model::Model;
 use crate::modelfile::{Document, suggestion};
 use crate::post::{OutputResult, each_output};
@@ -49,9 +49,9 @@ impl Axis {
         }
         let unit = &model.parameters[position].unit;
         let number = |text: &str| number(name, unit, text);
-        let parts = split(range, ':');
-        let values = match parts[..] {
-            [_] => split(range, ',').into_iter().map(number).collect::<Result<Vec<f64>, _>>()?,
+        let parts = |separator: char| split(range, separator).into_iter().map(|part| &range[part]);
+        let values = match parts(':').collect::<Vec<_>>()[..] {
+            [_] => parts(',').map(number).collect::<Result<Vec<f64>, _>>()?,
             [from, to, count] => {
                 let (from, to) = (number(from)?, number(to)?);
                 let count: usize = count
@@ -86,24 +86,6 @@ impl Axis {
         };
         Ok(Self { parameter: name.to_owned(), unit: unit.clone(), values })
     }
-}
-
-/// The parts of a text between separators that stand in no bracket.
-fn split(text: &str, separator: char) -> Vec<&str> {
-    let (mut parts, mut depth, mut start) = (Vec::new(), 0i32, 0);
-    for (i, character) in text.char_indices() {
-        match character {
-            '(' | '[' => depth += 1,
-            ')' | ']' => depth -= 1,
-            c if c == separator && depth == 0 => {
-                parts.push(&text[start..i]);
-                start = i + c.len_utf8();
-            }
-            _ => {}
-        }
-    }
-    parts.push(&text[start..]);
-    parts
 }
 
 /// A number with an optional unit that fits the parameter's.

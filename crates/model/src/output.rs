@@ -105,4 +105,6 @@ pub enum Quantity {
     CenterOfCompliance,
     /// Strain energy of the mechanism.
     Energy,
+    /// Value of a parameter (model), whose position is the component: in events it may change along the path.
+    Parameter,
 }

@@ -22,6 +22,17 @@ pub enum StudyKind {
     Buckle(BuckleStudy),
 }
 
+impl StudyKind {
+    /// The word that stands in the model file.
+    pub fn word(&self) -> &'static str {
+        match self {
+            StudyKind::Solve => "solve",
+            StudyKind::Trace(_) => "trace",
+            StudyKind::Buckle(_) => "buckle",
+        }
+    }
+}
+
 /// A path of equilibria as one parameter changes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TraceStudy {

@@ -2,7 +2,7 @@
 
 use crate::format::Named;
 use crate::repeat::{Copies, Expanded};
-use crate::report::{MOST, Problem, Report, Source};
+use crate::report::{MOST, Problem, Report, Texts};
 use crate::tree::{Node, Value};
 use flexura_expression::{
     Binding, Expression, ExpressionError, Kind, Lowered, Quantity, Reference, function_table, nearest,
@@ -11,7 +11,6 @@ use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::Path;
-use std::sync::Arc;
 
 /// A problem has been recorded; whoever gets this need not say more.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +33,7 @@ impl<T> Needed<T> for Read<Option<T>> {
 pub(crate) type Parameters = BTreeMap<String, Option<Quantity>>;
 
 pub(crate) struct Context<'a> {
-    pub source: &'a Arc<Source>,
+    pub texts: &'a Texts,
     pub folder: &'a Path,
     pub root: &'a Node,
     pub parameters: Parameters,
@@ -48,9 +47,9 @@ pub(crate) struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    pub(crate) fn new(source: &'a Arc<Source>, folder: &'a Path, root: &'a Node) -> Self {
+    pub(crate) fn new(texts: &'a Texts, folder: &'a Path, root: &'a Node) -> Self {
         Self {
-            source,
+            texts,
             folder,
             root,
             parameters: Parameters::new(),
@@ -72,7 +71,7 @@ impl<'a> Context<'a> {
             root: &expanded.root,
             names: names(&expanded.root),
             copies: Some(&expanded.copies),
-            source: self.source,
+            texts: self.texts,
             folder: self.folder,
             parameters: self.parameters,
             problems: self.problems,
@@ -121,14 +120,14 @@ impl<'a> Context<'a> {
         let copy = self.copies.and_then(|copies| copies.values(path));
         // Finding line and column takes a walk through the text; not where no one will see them.
         if self.is_told(span, path) {
-            let mut problem = Problem::of_file(&self.source.name, message);
+            let mut problem = Problem::of_file(&self.texts.file.name, message);
             (problem.path, problem.span) = (path.to_string(), span.clone());
             return problem;
         }
         if self.is_full() {
-            return Problem::of_file(&self.source.name, message);
+            return Problem::of_file(&self.texts.file.name, message);
         }
-        let mut problem = Problem::at(self.source, span.clone(), path, message);
+        let mut problem = self.texts.problem(span.clone(), path, message);
         if let Some(values) = copy {
             problem.message.push_str(&format!(" (for {values})"));
         }
@@ -154,6 +153,17 @@ impl<'a> Context<'a> {
         self.count.get() > 0
     }
 
+    /// How many problems there are, for [`Context::forget`].
+    pub(crate) fn count(&self) -> usize {
+        self.count.get()
+    }
+
+    /// Drops the problems that were recorded since there were so many.
+    pub(crate) fn forget(&self, count: usize) {
+        self.count.set(count);
+        self.problems.borrow_mut().truncate(count);
+    }
+
     /// What was found, in the order of the file.
     pub(crate) fn into_report(self) -> Report {
         let count = self.count.get();
@@ -170,7 +180,10 @@ impl<'a> Context<'a> {
         }
         let kept = problems.len();
         problems.sort_by_key(|problem| {
-            (problem.source.as_ref().is_none_or(|source| source.name != self.source.name), problem.span.start)
+            (
+                problem.source.as_ref().is_none_or(|source| source.name != self.texts.file.name),
+                problem.span.start,
+            )
         });
         // One mistake may be met twice, as in an output of three components.
         problems.dedup();
@@ -227,7 +240,7 @@ impl<'a> Context<'a> {
                 reference.span.clone(),
             )
             .with_hint(
-                "results such as `body.slider.position.x` can only be used in [output] and [target]",
+                "results such as `body.slider.position.x` can only be used in [output], [target] and the events of studies",
             ));
         };
         self.mark_used("parameter", name);
@@ -260,7 +273,7 @@ impl<'a> Context<'a> {
     /// whole value.
     pub(crate) fn inner(&self, node: &Node, range: &Range<usize>) -> Range<usize> {
         let Value::Text(text) = &node.value else { return node.span.clone() };
-        let Some(raw) = self.source.text.get(node.span.clone()) else { return node.span.clone() };
+        let Some(raw) = self.texts.get(&node.span) else { return node.span.clone() };
         let Some(offset) = raw.find(text.as_str()).filter(|_| !text.is_empty()) else {
             return node.span.clone();
         };

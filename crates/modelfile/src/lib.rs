@@ -41,14 +41,16 @@ mod repeat;
 mod report;
 mod schema;
 mod tree;
+mod typed;
 
 pub use reference::reference_markdown;
 pub use report::{Problem, Report, ReportKind, Severity};
 pub use schema::schema;
+pub use typed::Flag;
 
 use context::{Context, Reported, suggest};
-use flexura_model::Model;
-use report::Source;
+use flexura_model::{Model, Study};
+use report::{Source, Texts};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::de::DeTable;
@@ -58,7 +60,7 @@ use tree::{Node, Value};
 /// as often as wanted, each time with other overrides.
 #[derive(Clone, Debug)]
 pub struct Document {
-    source: Arc<Source>,
+    texts: Texts,
     folder: PathBuf,
     root: Node,
 }
@@ -122,13 +124,21 @@ impl Document {
                     at(entry.node.span.clone(), "format", message).hint("this program reads `format = 1`");
                 Err(Report::input(vec![problem]))
             }
-            Some(_) => Ok(Self { source, folder, root }),
+            Some(_) => Ok(Self { texts: Texts { file: source, typed: None }, folder, root }),
         }
     }
 
     /// The model, with some parameters overridden: each is a name and a text such as "3", "3 N" or "2*other".
     pub fn model(&self, overrides: &[(String, String)]) -> Result<Model, Report> {
-        self.build(overrides, |model, context| match model {
+        self.build(overrides, None, |model, context| match model {
+            Some(model) => Ok(model),
+            None => Err(context.into_report()),
+        })
+    }
+
+    /// [`Document::model`] beside another one of this file, whose studies it takes over as they are.
+    pub fn model_beside(&self, overrides: &[(String, String)], studies: &[Study]) -> Result<Model, Report> {
+        self.build(overrides, Some(studies), |model, context| match model {
             Some(model) => Ok(model),
             None => Err(context.into_report()),
         })
@@ -136,7 +146,7 @@ impl Document {
 
     /// What looks unintended although the model can be made: things that nothing uses.
     pub fn warnings(&self) -> Vec<Problem> {
-        self.build(&[], |model, context| match model {
+        self.build(&[], None, |model, context| match model {
             Some(_) => build::unused(&context),
             None => Vec::new(),
         })
@@ -146,19 +156,20 @@ impl Document {
     fn build<T>(
         &self,
         overrides: &[(String, String)],
+        beside: Option<&[Study]>,
         then: impl FnOnce(Option<Model>, Context<'_>) -> T,
     ) -> T {
-        let mut context = Context::new(&self.source, &self.folder, &self.root);
+        let mut context = Context::new(&self.texts, &self.folder, &self.root);
         build::parameters(&mut context, overrides);
         match repeat::expand(&context) {
             Err(Reported) => then(None, context),
             Ok(None) => {
-                let model = build::model(&context);
+                let model = build::model(&context, beside);
                 then(model, context)
             }
             Ok(Some(expanded)) => {
                 let context = context.over(&expanded);
-                let model = build::model(&context);
+                let model = build::model(&context, beside);
                 then(model, context)
             }
         }
@@ -173,10 +184,9 @@ impl Document {
     /// thing on the way to `path`, such as `body.slider`.
     pub fn problem(&self, path: &str, message: &str, hint: Option<&str>) -> Problem {
         let mut problem = match self.root.locate(path) {
-            Some(span) => Problem::at(&self.source, span, path, message),
-            None => Problem::of_file(&self.source.name, message),
+            Some(span) => self.texts.problem(span, path, message),
+            None => Problem { path: path.to_string(), ..Problem::of_file(&self.texts.file.name, message) },
         };
-        problem.path = path.to_string();
         problem.hint = hint.map(str::to_string);
         problem
     }
@@ -188,7 +198,7 @@ impl Document {
 
     /// The text of the file.
     pub fn text(&self) -> &str {
-        &self.source.text
+        &self.texts.file.text
     }
 }
 

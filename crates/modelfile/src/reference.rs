@@ -30,6 +30,7 @@ pub fn reference_markdown() -> String {
     }
     page.push_str(REPEATING);
     page.push_str(RESULTS);
+    page.push_str(EVENTS);
     words(&mut page);
     page
 }
@@ -112,8 +113,16 @@ const RESULTS: &str = "## Results in `[output]` and `[target]`\n\n\
     | `spring.NAME`, `cable.NAME` | `length`, `tension` |\n\
     | `tubes.NAME` | of the tip: `position`, `rotation`, `tangent` (each `.x`, `.y`, `.z`) |\n\
     | `model` | `energy` |\n\
-    | `output.NAME` | in `[target]` only: that output; of a vector `.x`, `.y`, `.z` |\n\n\
+    | `output.NAME` | in `[target]` and in events only: that output; of a vector `.x`, `.y`, `.z` |\n\n\
     A vector without a component gives three numbers. A name that is no plain word is quoted: `beam.\"left-arm\".end.position`. The coordinates of a free joint are `x`, `y`, `z` and the rotation vector `rx`, `ry`, `rz`.\n\n";
+
+const EVENTS: &str = "## Events\n\n\
+    An event of a trace is an equation such as `output.w = 10 mm`: on the left an expression over results as in `[target]`, a single \
+    number; on the right a value, which may be an expression of parameters. A `stop` is an event, or one of\n\n\
+    | stop | where a branch ends |\n|---|---|\n\
+    | `fold`, `fold 2` | at its first fold, at its second |\n\
+    | `branch`, `branch 2` | at its first branch point, at its second |\n\
+    | `event`, `event 2` | at the first point of any kind that is not regular, at the second |\n\n";
 
 fn words(page: &mut String) {
     page.push_str("## Units\n\n| unit | prefixes | in SI |\n|---|---|---|\n");

@@ -36,6 +36,42 @@ pub(crate) struct Source {
     pub text: String,
 }
 
+/// The text of the file and, as if it stood behind it, what was typed on the command line: byte ranges beyond the file
+/// belong to that.
+#[derive(Clone, Debug)]
+pub(crate) struct Texts {
+    pub file: Arc<Source>,
+    pub typed: Option<Arc<Source>>,
+}
+
+impl Texts {
+    /// Where the typed text begins; the byte between the two belongs to none.
+    pub(crate) fn typed_start(&self) -> usize {
+        self.file.text.len() + 1
+    }
+
+    fn find(&self, span: &Range<usize>) -> (&Arc<Source>, Range<usize>) {
+        let start = self.typed_start();
+        match &self.typed {
+            Some(typed) if span.start >= start => (typed, span.start - start..span.end - start),
+            _ => (&self.file, span.clone()),
+        }
+    }
+
+    /// What stands at a byte range.
+    pub(crate) fn get(&self, span: &Range<usize>) -> Option<&str> {
+        let (source, span) = self.find(span);
+        source.text.get(span)
+    }
+
+    /// A problem at a byte range. What was typed has no key in the file, so none is named there.
+    pub(crate) fn problem(&self, span: Range<usize>, path: &str, message: impl Into<String>) -> Problem {
+        let (source, within) = self.find(&span);
+        let path = if Arc::ptr_eq(source, &self.file) { path } else { "" };
+        Problem::at(source, within, path, message)
+    }
+}
+
 /// One thing that is wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {

@@ -138,9 +138,10 @@ fn named(schema: String) -> String {
 
 fn value(shape: &Shape) -> String {
     match shape {
-        Shape::Number(_) | Shape::Profile(_) | Shape::Function(_) | Shape::Station | Shape::AnyNumber => {
-            refer("number")
-        }
+        Shape::Number(_) | Shape::Profile(_) | Shape::Function(_) | Shape::Station => refer("number"),
+        Shape::AnyNumber | Shape::Count => refer("number"),
+        Shape::FlagOrCount => any_of([type_of("boolean"), refer("number")]),
+        Shape::Texts => any_of([type_of("string"), list(type_of("string"), None, 0)]),
         Shape::Notched(_) => any_of(std::iter::once(refer("number")).chain(shape.table().map(table))),
         Shape::Stiffness(_) => refer("extended"),
         Shape::Vector(_) | Shape::Profiles(_) => refer("vector"),
@@ -150,7 +151,7 @@ fn value(shape: &Shape) -> String {
         Shape::Inertia => any_of([refer("vector"), list(refer("vector"), Some(3), 3)]),
         Shape::PointOrStation => any_of([refer("number"), refer("vector")]),
         Shape::Offset => list(refer("number"), Some(3), 2),
-        Shape::Text | Shape::Name(_) | Shape::Equation => type_of("string"),
+        Shape::Text | Shape::Name(_) | Shape::Parameter | Shape::Equation => type_of("string"),
         Shape::Flag => type_of("boolean"),
         Shape::Choice(words) => object(&[("enum", array(words.iter().map(|(word, _)| text(word))))]),
         Shape::Placed(place) => any_of([type_of("string"), table(place)]),

@@ -56,7 +56,8 @@ fn push(text: &mut String, value: f64, beam: &str, sample: usize) -> Result<(), 
     Ok(())
 }
 
-fn quoted(name: &str) -> String {
+/// A cell, in quotes where it needs them.
+pub(crate) fn quoted(name: &str) -> String {
     if name.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", name.replace('"', "\"\""))
     } else {

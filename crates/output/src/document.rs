@@ -3,7 +3,7 @@
 use crate::derivatives::{compliances, elasticities, motions, sensitivities};
 use crate::wire::{
     BeamDocument, BodyDocument, CableDocument, CouplingDocument, Document, EquilibriumDocument,
-    JointDocument, SpringDocument, TubesDocument, Value, WorkDocument,
+    JointDocument, SpringDocument, StateDocument, TubesDocument, Value, WorkDocument,
 };
 use crate::{Named, OutputError};
 use flexura_model::{Model, Tubes};
@@ -23,8 +23,7 @@ pub fn document(
     evaluation: &Evaluation,
 ) -> Result<Document, OutputError> {
     let load_fraction = finite(solution.load_fraction, || "load_fraction".into())?;
-    let beams = model.beams.iter().zip(&solution.beams).zip(&evaluation.beams);
-    let springs = model.springs.iter().zip(&solution.springs);
+    let state = state_document(model, solution, evaluation)?;
     let has_tangents = !solution.tangents.is_empty();
     Ok(Document {
         flexura: env!("CARGO_PKG_VERSION").to_owned(),
@@ -38,12 +37,39 @@ pub fn document(
         newton_steps: solution.work.newton_steps,
         warnings: solution.warnings.clone(),
         work: work(&solution.work),
-        parameters: Named::collect(model.parameters.iter(), |parameter| {
-            let value = finite(parameter.value, || format!("parameters.{}", parameter.name))?;
-            Ok((parameter.name.clone(), value))
-        })?,
+        parameters: parameters(model)?,
         unknowns: unknowns(model, solution)?,
         outputs: outputs(evaluation)?,
+        beams: state.beams,
+        bodies: state.bodies,
+        joints: state.joints,
+        springs: state.springs,
+        couplings: state.couplings,
+        cables: state.cables,
+        tubes: state.tubes,
+        compliance: has_tangents.then(|| compliances(model, solution)).transpose()?,
+        compliance_rows: has_tangents.then(|| ["x", "y", "z", "rx", "ry", "rz"].map(str::to_owned)),
+        compliance_columns: has_tangents.then(|| ["fx", "fy", "fz", "mx", "my", "mz"].map(str::to_owned)),
+        motion: has_tangents.then(|| motions(model, solution)).transpose()?,
+        sensitivities: sensitivities(model, solution, evaluation)?,
+        elasticities: elasticities(model, solution, evaluation)?,
+        equilibria: None,
+        energy: state.energy,
+        stable: solution.stable,
+        unstable_directions: solution.unstable_directions,
+        stability_reason: solution.stability_reason.clone(),
+    })
+}
+
+/// The whole state of a mechanism.
+pub(crate) fn state_document(
+    model: &Model,
+    solution: &Solution,
+    evaluation: &Evaluation,
+) -> Result<StateDocument, OutputError> {
+    let beams = model.beams.iter().zip(&solution.beams).zip(&evaluation.beams);
+    let springs = model.springs.iter().zip(&solution.springs);
+    Ok(StateDocument {
         beams: Named::collect(beams, |((beam, result), stress)| {
             let path = format!("beams.{}", beam.name);
             Ok((beam.name.clone(), beam_document(&path, result, stress.as_ref())?))
@@ -70,17 +96,7 @@ pub fn document(
         tubes: Named::collect(model.tubes.iter().zip(&solution.tubes), |(tubes, result)| {
             Ok((tubes.name.clone(), tubes_document(tubes, result)?))
         })?,
-        compliance: has_tangents.then(|| compliances(model, solution)).transpose()?,
-        compliance_rows: has_tangents.then(|| ["x", "y", "z", "rx", "ry", "rz"].map(str::to_owned)),
-        compliance_columns: has_tangents.then(|| ["fx", "fy", "fz", "mx", "my", "mz"].map(str::to_owned)),
-        motion: has_tangents.then(|| motions(model, solution)).transpose()?,
-        sensitivities: sensitivities(model, solution, evaluation)?,
-        elasticities: elasticities(model, solution, evaluation)?,
-        equilibria: None,
         energy: finite(solution.energy, || "energy".into())?,
-        stable: solution.stable,
-        unstable_directions: solution.unstable_directions,
-        stability_reason: solution.stability_reason.clone(),
     })
 }
 
@@ -104,8 +120,15 @@ pub fn equilibrium_document(
     })
 }
 
+pub(crate) fn parameters(model: &Model) -> Result<Named<f64>, OutputError> {
+    Named::collect(model.parameters.iter(), |parameter| {
+        let value = finite(parameter.value, || format!("parameters.{}", parameter.name))?;
+        Ok((parameter.name.clone(), value))
+    })
+}
+
 /// None for a study that broke off before there was one.
-fn error_estimate(solution: &Solution) -> Result<Option<f64>, OutputError> {
+pub(crate) fn error_estimate(solution: &Solution) -> Result<Option<f64>, OutputError> {
     if solution.status == Status::Converged || solution.error_estimate.is_finite() {
         finite(solution.error_estimate, || "error_estimate".into()).map(Some)
     } else {
@@ -124,7 +147,7 @@ fn unknowns(model: &Model, solution: &Solution) -> Result<Option<Named<f64>>, Ou
     .map(Some)
 }
 
-fn outputs(evaluation: &Evaluation) -> Result<Named<Value>, OutputError> {
+pub(crate) fn outputs(evaluation: &Evaluation) -> Result<Named<Value>, OutputError> {
     Named::collect(evaluation.outputs.iter(), |output| {
         let path = || format!("outputs.{}", output.name);
         let value = match output.value {
@@ -197,7 +220,7 @@ fn tubes_document(tubes: &Tubes, result: &TubesSolution) -> Result<TubesDocument
     })
 }
 
-fn work(work: &Work) -> WorkDocument {
+pub(crate) fn work(work: &Work) -> WorkDocument {
     WorkDocument {
         newton_steps: work.newton_steps,
         factorisations: work.factorisations,

@@ -12,6 +12,7 @@ mod document;
 mod json;
 mod read;
 mod svg;
+mod trace;
 mod vtk;
 mod wire;
 
@@ -19,11 +20,16 @@ pub use csv::beams_csv;
 pub use document::{document, equilibrium_document};
 pub use json::{Named, to_json};
 pub use read::{ReadError, read_document, solution_of};
-pub use svg::shape_svg;
+pub use svg::{diagram_svg, modes_svg, shape_svg, shapes_svg};
+pub use trace::{
+    BranchDocument, BucklingDocument, CriticalDocument, ModeDocument, MotionDocument, MotionsDocument,
+    PointDocument, Remake, ShapeDocument, TraceDocument, TraceView, TraceWorkDocument, buckling_document,
+    critical_csv, modes_csv, path_csv, trace_document,
+};
 pub use vtk::model_vtp;
 pub use wire::{
     BeamDocument, BodyDocument, CableDocument, CouplingDocument, Document, Elasticity, EquilibriumDocument,
-    JointDocument, SpringDocument, TubesDocument, Value, WorkDocument,
+    JointDocument, SpringDocument, StateDocument, TubesDocument, Value, WorkDocument,
 };
 
 /// Why something cannot be written.

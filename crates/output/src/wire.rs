@@ -91,6 +91,27 @@ pub struct Document {
     pub stability_reason: Option<String>,
 }
 
+/// The whole state of a mechanism, as in the result document of a solve.
+#[derive(Clone, Debug, Serialize)]
+pub struct StateDocument {
+    /// The beams' states at their samples.
+    pub beams: Named<BeamDocument>,
+    /// The bodies' poses.
+    pub bodies: Named<BodyDocument>,
+    /// The joints' states.
+    pub joints: Named<JointDocument>,
+    /// The springs' states.
+    pub springs: Named<SpringDocument>,
+    /// The couplings' states.
+    pub couplings: Named<CouplingDocument>,
+    /// The cables' states.
+    pub cables: Named<CableDocument>,
+    /// The states of concentric tubes at their samples.
+    pub tubes: Named<TubesDocument>,
+    /// Strain energy, J.
+    pub energy: f64,
+}
+
 /// A number or a vector.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]

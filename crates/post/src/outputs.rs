@@ -120,6 +120,12 @@ impl Reader<'_> {
             }
             ProbeTarget::Model => match probe.quantity {
                 Quantity::Energy => Ok(self.solution.energy),
+                Quantity::Parameter => {
+                    let parameter = self.model.parameters.get(component);
+                    parameter
+                        .map(|parameter| parameter.value)
+                        .ok_or_else(|| self.no_such_quantity("the mechanism"))
+                }
                 _ => Err(self.no_such_quantity("the whole mechanism")),
             },
         }

@@ -4,6 +4,7 @@
 //! unless said otherwise. `F` and `M` act, by the part beyond s, on the part before s.
 
 mod trace;
+mod words;
 
 pub use trace::{
     Branch, BranchEnd, BranchOrigin, Buckling, BucklingMode, CriticalCurve, Crossing, Direction, PointKind,

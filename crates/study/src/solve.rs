@@ -2,7 +2,7 @@
 
 use crate::family::Family;
 use crate::inverse::Border;
-use flexura_equilibrium::{Equilibrium, Finish, ProblemError};
+use flexura_equilibrium::{Equilibrium, Finish, ProblemError, Stability};
 use flexura_model::{BeamPoint, LoadId, Model, Output, ProbeTarget, Quantity};
 use flexura_nonlinear::{Breakdown, NewtonEnd, PathEnd, PathOptions, PathWork, System, follow};
 use flexura_solution::{Solution, Status};
@@ -77,6 +77,9 @@ const NEAR_RESULT: f64 = 2.0;
 /// Samples of all beams together, and of each at least.
 const MOST_SAMPLES: usize = 30_000;
 const FEWEST_SAMPLES: usize = 5;
+
+/// Why an equilibrium may have no verdict though its mechanism has an energy.
+pub(crate) const CRITICAL: &str = "the equilibrium is critical: a direction gives way without resistance";
 
 /// √(F/EI) L beyond which a load is taken for a mistake.
 const LARGEST_PHASE: f64 = 1e4;
@@ -310,6 +313,19 @@ impl Prepared {
         Outcome { status, reason, error_estimate, path }
     }
 
+    /// Says whether the present equilibrium is stable.
+    pub(crate) fn judge(&mut self, solution: &mut Solution) {
+        match self.problem.stability() {
+            Ok(Stability::Unstable(count)) => {
+                solution.unstable_directions = Some(count);
+                solution.stable = Some(count == 0);
+                solution.stability_reason = None;
+            }
+            Ok(Stability::Undecided(reason)) => solution.stability_reason = Some(reason),
+            Err(_) => solution.stability_reason = Some(CRITICAL.to_string()),
+        }
+    }
+
     /// The present state as a solution.
     pub fn solution(&mut self, outcome: &Outcome, samples: usize) -> Solution {
         let mut solution = self.problem.solution(samples);
@@ -318,10 +334,15 @@ impl Prepared {
         solution.error_estimate = outcome.error_estimate;
         if let Some(load) = outcome.path.crossing {
             solution.warnings.push(format!(
-                "the path from rest passes a branch point at {:.4} % of the load; the equilibrium found lies beyond it \
-                 and may be unstable",
+                "the path from rest passes a branch point at {:.4} % of the load, and the equilibrium found lies beyond it; \
+                 `flexura trace` shows what branches off there",
                 100.0 * load
             ));
+        }
+        if outcome.status == Status::Converged {
+            self.judge(&mut solution);
+        } else {
+            solution.stability_reason = Some("this is no equilibrium under the full load".to_string());
         }
         solution.work.load_steps = outcome.path.taken;
         solution.work.rejected_steps = outcome.path.refused;

@@ -12,12 +12,12 @@ use flexura_spatial::{Twist, Vector3, Wrench};
 use nalgebra::Vector6;
 
 type V = Vector3<f64>;
-type Motions = Vec<(usize, Vector6<f64>)>;
+pub(super) type Motions = Vec<(usize, Vector6<f64>)>;
 
 /// A row or column of the plain tangents in the symmetric matrix: its number and sign there; none where it has no part in it.
 #[derive(Clone, Copy, Default)]
-struct Target {
-    at: Option<usize>,
+pub(super) struct Target {
+    pub at: Option<usize>,
     flipped: bool,
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct Second {
     pub(super) symmetric: Symmetric,
 }
 
-/// Numbers of what a span adds: η of each stretch, the poses between them, and the pose of a free end.
+/// Numbers of what a span adds: the poses between its stretches, and that of a free end.
 pub(super) struct Numbers {
     first: usize,
     stretches: usize,
@@ -40,21 +40,22 @@ pub(super) struct Numbers {
 }
 
 impl Numbers {
-    pub fn wrench(&self, k: usize) -> usize {
-        self.first + 12 * k
-    }
-
     /// The pose behind stretch `k`; none behind the last where the end is held.
     pub fn pose(&self, k: usize) -> Option<usize> {
-        (k + 1 < self.stretches || self.free).then_some(self.first + 12 * k + 6)
+        (k + 1 < self.stretches || self.free).then_some(self.first + 6 * k)
     }
 
-    fn count(&self) -> usize {
-        12 * self.stretches - if self.free { 0 } else { 6 }
+    /// The pose before stretch `k`; none before the first, whose start is held.
+    pub fn pose_before(&self, k: usize) -> Option<usize> {
+        k.checked_sub(1).and_then(|k| self.pose(k))
+    }
+
+    pub fn count(&self) -> usize {
+        6 * self.stretches - if self.free { 0 } else { 6 }
     }
 }
 
-fn vector(angular: V, linear: V) -> Vector6<f64> {
+pub(super) fn vector(angular: V, linear: V) -> Vector6<f64> {
     Vector6::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
 }
 
@@ -133,7 +134,11 @@ impl Equilibrium {
 
     /// Where rows and columns of the plain tangents stand in the symmetric matrix, its size, and how many of its unknowns are
     /// multipliers.
-    fn targets(&self, numbers: &[Numbers], total: usize) -> (Vec<Target>, Vec<Target>, usize, usize) {
+    pub(super) fn targets(
+        &self,
+        numbers: &[Numbers],
+        total: usize,
+    ) -> (Vec<Target>, Vec<Target>, usize, usize) {
         let mut columns = vec![Target::default(); total];
         let mut flipped = vec![false; total];
         let mut size = 0;
@@ -177,7 +182,6 @@ impl Equilibrium {
         }
         for own in numbers {
             take(&mut columns, own.first, own.count());
-            multipliers += 6 * own.stretches;
         }
         let mut rows: Vec<Target> =
             columns.iter().zip(&flipped).map(|(c, flipped)| Target { at: c.at, flipped: *flipped }).collect();
@@ -209,10 +213,10 @@ impl Equilibrium {
         for (own, span) in numbers.iter().zip(&self.lowered.spans) {
             let ends = span.s.map(|s| self.lowered.rest_pose(span.beam, s).position);
             for k in 0..own.stretches {
-                let t = (k as f64 + 0.5) / own.stretches as f64;
-                let place = ends[0] * (1.0 - t) + ends[1] * t;
-                let last = own.pose(k).map_or(own.wrench(k) + 6, |pose| pose + 6);
-                add(own.wrench(k)..last, place.into());
+                let t = (k + 1) as f64 / own.stretches as f64;
+                if let Some(pose) = own.pose(k) {
+                    add(pose..pose + 6, (ends[0] * (1.0 - t) + ends[1] * t).into());
+                }
             }
         }
         blocks
@@ -231,7 +235,7 @@ impl Equilibrium {
             list
         };
         for (k, form) in cut.forms.iter().enumerate() {
-            let before = match k.checked_sub(1).and_then(|k| own.pose(k)) {
+            let before = match own.pose_before(k) {
                 Some(pose) => identity(pose),
                 None => motions(&start, &slots.start),
             };
@@ -240,27 +244,16 @@ impl Equilibrium {
                 (None, Some(end)) => motions(end, &slots.end),
                 (None, None) => continue,
             };
-            let eta = own.wrench(k);
-            for (unknown, x) in &before {
-                add(sink, eta, *unknown, &(form.p * x));
-            }
-            for (unknown, x) in &after {
-                add(sink, eta, *unknown, &-x);
-            }
-            for j in 0..6 {
-                add(sink, eta, eta + j, &form.d.column(j).into_owned());
-            }
             // Changes of minus the wrench at the start, and of that at the end.
             let at_start = |f: &mut dyn FnMut(usize, Vector6<f64>)| {
-                before.iter().for_each(|(unknown, x)| f(*unknown, -(form.rp * x)));
-                after.iter().for_each(|(unknown, x)| f(*unknown, form.r.tr_mul(x)));
-                (0..6).for_each(|j| f(eta + j, -form.p.row(j).transpose()));
+                before.iter().for_each(|(unknown, x)| f(*unknown, form.aa * x));
+                after.iter().for_each(|(unknown, x)| f(*unknown, form.ba.tr_mul(x)));
             };
             let at_end = |f: &mut dyn FnMut(usize, Vector6<f64>)| {
-                before.iter().for_each(|(unknown, x)| f(*unknown, form.r * x));
-                (0..6).for_each(|j| f(eta + j, Vector6::ith(j, 1.0)));
+                before.iter().for_each(|(unknown, x)| f(*unknown, form.ba * x));
+                after.iter().for_each(|(unknown, x)| f(*unknown, form.bb * x));
             };
-            match k.checked_sub(1).and_then(|k| own.pose(k)) {
+            match own.pose_before(k) {
                 Some(pose) => at_start(&mut |unknown, change| add(sink, pose, unknown, &-change)),
                 None => {
                     let derivative = |f: &mut dyn FnMut(usize, Wrench)| {
@@ -297,7 +290,7 @@ impl Equilibrium {
         }
     }
 
-    fn held_by(&self, hold: &Hold, slot: &CoordinateSlot) -> Held {
+    pub(super) fn held_by(&self, hold: &Hold, slot: &CoordinateSlot) -> Held {
         self.held(&hold.carrier, &HoldRef::of(hold), &self.configuration(slot))
     }
 }

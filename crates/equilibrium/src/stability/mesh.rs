@@ -94,7 +94,7 @@ impl Equilibrium {
                         level.steps(law, description, [s, next], ACCURACY),
                         Vec::new(),
                     );
-                    let form = Form::new(&part, self.load, &pulls, &here, end).filter(|form| {
+                    let form = Form::new(&part, law.soft(), (self.load, &pulls), &here, end).filter(|form| {
                         let met = Level {
                             force: norm(&here.force).max(norm(&form.end.force)),
                             moment: norm(&here.moment).max(norm(&form.end.moment)),

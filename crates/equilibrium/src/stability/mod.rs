@@ -1,19 +1,19 @@
 //! How many directions an equilibrium is unstable in.
 //!
 //! An equilibrium of a conservative mechanism is a stationary point of its energy under constraints. Its second variation
-//! is assembled as one symmetric matrix over node poses, joint coordinates and multipliers, and over the inner poses and wrenches
-//! of beams cut into stretches so short that each of them is stable by itself (`segment`, `mesh`):
+//! is assembled as one symmetric matrix over poses, joint coordinates and multipliers. Beams are cut into stretches so short that
+//! each of them is stable by itself (`mesh`), and enter with their stiffness in the poses of their ends (`segment`):
 //!
 //! ```text
-//!            poses, coordinates    multipliers, η
-//!          [        K                   Bᵀ        ]
-//!   Hess = [                                      ]      C positive semidefinite
-//!          [        B                  -C         ]
+//!            poses, coordinates    multipliers
+//!          [        K                  Bᵀ      ]
+//!   Hess = [                                   ]
+//!          [        B                  0       ]
 //! ```
 //!
-//! The number of unstable directions is the number of negative eigenvalues of Hess less the number of multipliers
-//! (for C = 0 see J. Nocedal and S. J. Wright, *Numerical Optimization*, 2nd ed., 2006, theorem 16.3; for stretches it is the count of W. H.
-//! Wittrick and F. W. Williams, *Q. J. Mech. Appl. Math.* 24 (1971) 263, without their second term, which is zero for short ones).
+//! The number of unstable directions is the number of negative eigenvalues of Hess less the number of multipliers (J. Nocedal and S. J.
+//! Wright, *Numerical Optimization*, 2nd ed., 2006, theorem 16.3). For beams it is the count of W. H. Wittrick and F. W. Williams, *Q. J.
+//! Mech. Appl. Math.* 24 (1971) 263, whose second term, what is unstable inside a stretch between fixed ends, is zero for short ones.
 //!
 //! Rotations are varied by small turnings; written so, second derivatives have an antisymmetric part ½ hat(M) for every moment M. At
 //! a balanced node these parts add up to nothing, so the symmetric part of what the plain tangents give is the second variation.
@@ -23,8 +23,10 @@ mod assemble;
 mod mesh;
 mod segment;
 mod undecided;
+mod variation;
 
 pub(crate) use assemble::Second;
+pub use variation::Variation;
 
 use crate::system::Equilibrium;
 use flexura_nonlinear::Breakdown;

@@ -1,4 +1,4 @@
-//! The quadratic form of a short stretch of beam, from its transfer map.
+//! The stiffness of a short stretch of beam in its two end poses, from its transfer map.
 //!
 //! With x = (turning, shift) of an end and w = (moment, force) of the part beyond on the part before, both in the
 //! exponential coordinates of a canonical pair, the map of small changes from start A to end B
@@ -7,16 +7,15 @@
 //!   x_B = P x_A + Q w_A        w_B = R x_A + S w_A
 //! ```
 //!
-//! is symplectic: PᵀR and QᵀS are symmetric and PᵀS - RᵀQ = I. With η = S w_A the stretch's second variation is the
-//! stationary value over η of
+//! is symplectic: PᵀR and QᵀS are symmetric and PᵀS - RᵀQ = I. With D = Q S⁻¹, the compliance of the stretch clamped at A under dead
+//! loads at B, its second variation is
 //!
 //! ```text
-//!   E = ηᵀ(x_B - P x_A) - ½ ηᵀ D η + x_Bᵀ R x_A - ½ x_Aᵀ RᵀP x_A,      D = Q S⁻¹
+//!   E = ½ (x_B - P x_A)ᵀ D⁻¹ (x_B - P x_A) + x_Bᵀ R x_A - ½ x_Aᵀ RᵀP x_A
 //! ```
 //!
-//! D is the compliance of the stretch clamped at A under dead loads at B. It exists where the stiffness does not: a
-//! straight rod that does not stretch has a singular Q. If D is semidefinite, which a short stretch's is, each η adds one
-//! negative eigenvalue to the form and the rest are those of the second variation itself.
+//! D is positive for a stretch that is short enough, but only semidefinite where the beam does not stretch, bend or twist in some
+//! way: there a compliance of 10⁻⁸ of the softest is put in its place.
 
 use crate::mesh::Stretch;
 use crate::shooting::{Acting, Plain, Pull, SegmentEnd, carry_columns};
@@ -24,35 +23,39 @@ use flexura_spatial::{Matrix3, Matrix6, Vector3};
 
 type V = Vector3<f64>;
 
-/// The form of one stretch, and what it was found at.
+/// The stiffness of one stretch, and what it was found at.
 pub(super) struct Form {
-    /// P and R of the transfer map.
-    pub p: Matrix6<f64>,
-    pub r: Matrix6<f64>,
-    /// RᵀP.
-    pub rp: Matrix6<f64>,
-    /// Q S⁻¹.
-    pub d: Matrix6<f64>,
+    /// Blocks of E: of A with itself, of B with A, of B with itself.
+    pub aa: Matrix6<f64>,
+    pub ba: Matrix6<f64>,
+    pub bb: Matrix6<f64>,
+    /// The moment at A.
+    pub start_moment: [f64; 3],
     /// The state at B, before what jumps there.
     pub end: Plain,
 }
+
+/// Compliance, as a part of the softest, of what has none.
+const STIFF: f64 = 1e-8;
 
 fn half_hat(v: &[f64; 3]) -> Matrix3<f64> {
     Matrix3::new(0.0, -v[2], v[1], v[2], 0.0, -v[0], -v[1], v[0], 0.0) * 0.5
 }
 
 impl Form {
-    /// Carries the stretch from `start`. None where S has no inverse, which a short stretch never shows.
+    /// Carries the stretch, `length` long, from `start`; `soft` is the beam's softest compliance. None where the stretch is not
+    /// stable by itself.
     pub fn new(
         stretch: &Stretch,
-        load: f64,
-        pulls: &[Pull],
+        soft: f64,
+        (load, pulls): (f64, &[Pull]),
         start: &Plain,
         end: &mut SegmentEnd,
     ) -> Option<Self> {
         let loads = &stretch.piece.loads;
         let directed = loads.iter().any(|l| l.dead_force != [0.0; 3] || l.dead_moment != [0.0; 3]);
         let acting = Acting { jumps: &[], load, pulls };
+        let length = stretch.piece.length;
         let stretch = std::slice::from_ref(stretch);
         let (mut p, mut q) = (Matrix6::zeros(), Matrix6::zeros());
         let (mut r, mut s) = (Matrix6::zeros(), Matrix6::zeros());
@@ -116,6 +119,16 @@ impl Form {
         part += turned;
         // D S = Q, by columns of the transposes.
         let d = s.transpose().lu().solve(&q.transpose())?;
-        Some(Self { p, r, rp: r.transpose() * p, d: (d + d.transpose()) * 0.5, end: end.state })
+        let least = STIFF * soft * length;
+        let d = (d + d.transpose()) * 0.5 + Matrix6::identity() * least;
+        let stiffness = d.cholesky()?.inverse();
+        let (turned, rp) = (stiffness * p, r.tr_mul(&p));
+        Some(Self {
+            aa: p.tr_mul(&turned) - (rp + rp.transpose()) * 0.5,
+            ba: r - turned,
+            bb: stiffness,
+            start_moment: start.moment,
+            end: end.state,
+        })
     }
 }

@@ -63,6 +63,11 @@ fn render(model: &Model, census: &Census) -> String {
         outputs.row(vec![output.name.clone(), format!("{shape}{unit}")]);
     }
     add(&mut text, &outputs);
+    let mut studies = Table::new(&["studies", "kind"]);
+    for study in &model.studies {
+        studies.row(vec![study.name.clone(), study.kind.word().to_owned()]);
+    }
+    add(&mut text, &studies);
     text
 }
 
@@ -116,6 +121,9 @@ struct CheckDocument<'a> {
     /// Of an inverse problem: the wanted values.
     #[serde(skip_serializing_if = "Option::is_none")]
     targets: Option<Named<f64>>,
+    /// The studies in the file, by name: their kinds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    studies: Option<Named<&'static str>>,
     warnings: &'a [String],
 }
 
@@ -138,6 +146,8 @@ impl<'a> CheckDocument<'a> {
             ),
             guesses: is_inverse.then(|| Named(unknowns.map(|p| (p.name.clone(), p.value)).collect())),
             targets: is_inverse.then(|| Named(targets.collect())),
+            studies: (!model.studies.is_empty())
+                .then(|| Named(model.studies.iter().map(|s| (s.name.clone(), s.kind.word())).collect())),
             warnings: &census.warnings,
         }
     }
@@ -146,7 +156,7 @@ impl<'a> CheckDocument<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexura::model::{Output, Target, Unknown};
+    use flexura::model::{Output, Study, StudyKind, Target, Unknown};
 
     const ELASTICA: &str = include_str!("../../../../models/elastica.toml");
 
@@ -176,6 +186,16 @@ mod tests {
             assert!(text.contains(words), "{words}: {text}");
         }
         let text = to_json(&CheckDocument::new(&model, &census)).unwrap();
+        assert!(!text.contains("studies"));
         assert!(text.contains("\"guesses\": {\n    \"force\": 10.0"), "{text}");
+    }
+    #[test]
+    fn the_studies_of_the_file_are_listed() {
+        let mut model = elastica();
+        let census = flexura::check(&model).unwrap();
+        model.studies.push(Study { name: "equilibrium".into(), kind: StudyKind::Solve });
+        assert!(render(&model, &census).contains("\n  equilibrium  solve\n"));
+        let text = to_json(&CheckDocument::new(&model, &census)).unwrap();
+        assert!(text.contains("\"equilibrium\": \"solve\""), "{text}");
     }
 }

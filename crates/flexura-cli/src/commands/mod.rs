@@ -1,12 +1,15 @@
 //! The sub-commands, one a file.
 
+pub mod buckle;
 pub mod check;
 pub mod completions;
 mod earlier;
 pub mod examples;
+pub mod run;
 pub mod schema;
 pub mod solve;
 pub mod sweep;
+pub mod trace;
 
 use crate::failure::Failure;
 use crate::screen;

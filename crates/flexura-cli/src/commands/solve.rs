@@ -1,104 +1,101 @@
 //! `flexura solve FILE`
 
-use super::{earlier, file_failure, problem_failure, warn_about};
+use super::{earlier, file_failure, problem_failure};
+use crate::answer::{Answer, StudyDocument, Task, unwritable};
 use crate::arguments::SolveArguments;
 use crate::failure::Failure;
 use crate::progress::Meter;
 use crate::table::Table;
-use crate::{derivatives, quantity, screen, summary};
+use crate::{derivatives, quantity, summary};
 use flexura::model::Model;
 use flexura::modelfile::Document;
-use flexura::output::{beams_csv, document, equilibrium_document, model_vtp, shape_svg, to_json};
+use flexura::output::{
+    OutputError, beams_csv, document as document_of, equilibrium_document, model_vtp, shape_svg,
+};
 use flexura::post::{Evaluation, PostError, Scales, evaluate_each, summarise};
 use flexura::solution::{Solution, Status};
 use flexura::{FileFamily, Options, equilibria, place, solve_family};
-use std::fs;
-use std::path::Path;
 
 /// Positions that differ by less than this part of the mechanism's size belong to the same equilibrium.
 const SAME: f64 = 1e-6;
 
 pub fn run(arguments: &SolveArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
-    let overrides = &arguments.model.overrides;
-    let model = file.model(overrides).map_err(|report| file_failure(&report))?;
-    let options = options(arguments, &model)?;
-
-    let mut family = FileFamily::new(&file, overrides, &model);
-    let mut meter = Meter::new(arguments.model.quiet);
-    let solved = solve_family(&model, &mut family, &options, &mut |progress| meter.update(progress));
-    meter.finish();
-    let (mut solution, model) = solved.map_err(|error| problem_failure(&file, &error))?;
-    let warnings = solution.warnings.clone();
-    let evaluation = evaluation(&model, &mut solution);
-    let others = match arguments.guesses {
-        Some(guesses) => other_equilibria(arguments, &file, &model, &solution, &options, guesses)?,
-        None => Vec::new(),
-    };
-
-    // The document is written out even when the solve did not converge: it says how far that came and why.
-    let text = || -> Result<String, Failure> {
-        let unwritable = |error: flexura::output::OutputError| unwritable(&solution, &error.to_string());
-        let mut document = document(&model, &solution, &evaluation.0).map_err(unwritable)?;
-        if arguments.guesses.is_some() {
-            let list = others.iter().map(|(other, values)| equilibrium_document(&model, other, values));
-            document.equilibria = Some(list.collect::<Result<_, _>>().map_err(unwritable)?);
-        }
-        to_json(&document).map_err(unwritable)
-    };
-    if let Some(folder) = &arguments.output {
-        write_files(folder, &text()?, &model, &solution, &evaluation.0)?;
-    }
-    if arguments.model.json {
-        screen::print(&text()?)?;
-    } else if !arguments.model.quiet {
-        let mut text = summary::render(&summarise(&model, &solution, &evaluation.0));
-        text += &derivatives::compliances(&model, &solution, &options.compliances);
-        text += &derivatives::sensitivities(&model, &solution, &evaluation.0);
-        if arguments.guesses.is_some() {
-            text += &equilibria_table(&solution, &others);
-        }
-        screen::print(&text)?;
-    }
-    if !arguments.model.quiet {
-        warn_about(&file, &warnings);
-        if let Some(folder) = &arguments.output {
-            screen::note(&format!(
-                "wrote result.json, beams.csv, model.vtp and shape.svg into {}",
-                folder.display()
-            ));
-        }
-    }
-    let complaints: Vec<String> = evaluation.1.iter().map(ToString::to_string).collect();
-    match solution.status {
-        Status::Converged if complaints.is_empty() => Ok(()),
-        Status::Converged => Err(Failure::Input(complaints.join("; "))),
-        _ => {
-            // Outputs of a state that is not the answer may well have no value.
-            complaints
-                .iter()
-                .filter(|_| !arguments.model.quiet)
-                .for_each(|complaint| screen::warn(complaint));
-            Err(not_converged(&solution))
-        }
-    }
+    let mut task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
+    add_options(arguments, &mut task)?;
+    let guesses = arguments.guesses.map(|guesses| (guesses, arguments.seed.unwrap_or(0)));
+    let answer = study(&task, guesses)?;
+    task.deliver(answer)
 }
 
-fn options(arguments: &SolveArguments, model: &Model) -> Result<Options, Failure> {
-    let mut options = Options { sensitivities: arguments.sensitivity, ..Options::default() };
-    if let Some(tolerance) = arguments.tolerance {
-        options.tolerance = tolerance;
+/// The equilibrium of a file's model, and others if they are looked for: how many random states, and their seed.
+pub fn study(task: &Task<'_>, guesses: Option<(usize, u64)>) -> Result<Answer, Failure> {
+    let (file, options) = (&task.file, &task.options);
+    let mut family = FileFamily::new(file, task.overrides, &task.model);
+    let mut meter = Meter::new(task.is_quiet);
+    let solved = solve_family(&task.model, &mut family, options, &mut |progress| meter.update(progress));
+    meter.finish();
+    let (mut solution, model) = solved.map_err(|error| problem_failure(file, &error))?;
+    let mut warnings = solution.warnings.clone();
+    let (evaluation, without_value) = evaluation(&model, &mut solution);
+    let others = match guesses {
+        Some(guesses) => other_equilibria(file, &model, &solution, options, guesses)?,
+        None => Vec::new(),
+    };
+    let failed = || (solution.status != Status::Converged).then(|| not_converged(&solution));
+
+    // The document is written out even when the solve did not converge: it says how far that came and why.
+    let refused = |error: OutputError| unwritable(failed(), &error.to_string());
+    let mut document = None;
+    let mut files = Vec::new();
+    if task.wants_document() {
+        let mut whole = document_of(&model, &solution, &evaluation).map_err(refused)?;
+        if guesses.is_some() {
+            let list = others.iter().map(|(other, values)| equilibrium_document(&model, other, values));
+            whole.equilibria = Some(list.collect::<Result<_, _>>().map_err(refused)?);
+        }
+        document = Some(StudyDocument::Solve(Box::new(whole)));
     }
+    if task.folder.is_some() {
+        files = vec![
+            ("beams.csv", beams_csv(&model, &solution, &evaluation).map_err(refused)?),
+            ("model.vtp", model_vtp(&model, &solution, &evaluation)),
+            ("shape.svg", shape_svg(&model, &solution)),
+        ];
+    }
+    let mut summary = summary::render(&summarise(&model, &solution, &evaluation));
+    summary += &derivatives::compliances(&model, &solution, &options.compliances);
+    summary += &derivatives::sensitivities(&model, &solution, &evaluation);
+    if guesses.is_some() {
+        summary += &equilibria_table(&solution, &others);
+    }
+    let complaints: Vec<String> = without_value.iter().map(ToString::to_string).collect();
+    let failure = match failed() {
+        None if complaints.is_empty() => None,
+        None => Some(Failure::Input(complaints.join("; "))),
+        failed => {
+            // Outputs of a state that is not the answer may well have no value.
+            warnings.extend(complaints);
+            failed
+        }
+    };
+    Ok(Answer { document, files, summary, warnings, failure })
+}
+
+fn add_options(arguments: &SolveArguments, task: &mut Task<'_>) -> Result<(), Failure> {
+    let options = &mut task.options;
+    options.sensitivities = arguments.sensitivity;
     for text in &arguments.compliance {
-        let place = place(model, text).map_err(|error| Failure::Input(format!("--compliance: {error}")))?;
+        let place =
+            place(&task.model, text).map_err(|error| Failure::Input(format!("--compliance: {error}")))?;
         if !options.compliances.contains(&place) {
             options.compliances.push(place);
         }
     }
     if let Some(path) = &arguments.from {
-        options.from = Some(Box::new(earlier::read(path, model)?));
+        options.from = Some(Box::new(earlier::read(path, &task.model)?));
     }
-    Ok(options)
+    Ok(())
 }
 
 /// The outputs that have a value; the others become warnings of the solution and are returned.
@@ -110,12 +107,11 @@ fn evaluation(model: &Model, solution: &mut Solution) -> (Evaluation, Vec<PostEr
 
 /// All equilibria that are found under the load of the solution, which is the one from rest.
 fn other_equilibria(
-    arguments: &SolveArguments,
     file: &Document,
     model: &Model,
     solution: &Solution,
     options: &Options,
-    guesses: usize,
+    (guesses, seed): (usize, u64),
 ) -> Result<Vec<(Solution, Evaluation)>, Failure> {
     if !model.unknowns.is_empty() && solution.status != Status::Converged {
         // Under which load is what was to be found.
@@ -124,8 +120,7 @@ fn other_equilibria(
     let mut model = model.clone();
     (model.unknowns, model.targets) = (Vec::new(), Vec::new());
     let options = Options { sensitivities: false, compliances: Vec::new(), from: None, ..options.clone() };
-    let found = equilibria(&model, &options, guesses, arguments.seed.unwrap_or(0))
-        .map_err(|error| problem_failure(file, &error))?;
+    let found = equilibria(&model, &options, guesses, seed).map_err(|error| problem_failure(file, &error))?;
     let converged = found.into_iter().filter(|other| other.status == Status::Converged);
     Ok(converged
         .map(|other| {
@@ -169,41 +164,6 @@ fn is_same(a: &Solution, b: &Solution, scales: &Scales) -> bool {
     };
     let (a, b) = (beams(a), beams(b));
     a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a - b).norm() <= SAME * scales.length)
-}
-
-fn write_files(
-    folder: &Path,
-    document: &str,
-    model: &Model,
-    solution: &Solution,
-    evaluation: &Evaluation,
-) -> Result<(), Failure> {
-    fs::create_dir_all(folder)
-        .map_err(|error| Failure::Machine(format!("cannot make the folder {}: {error}", folder.display())))?;
-    let table =
-        beams_csv(model, solution, evaluation).map_err(|error| unwritable(solution, &error.to_string()))?;
-    let files = [
-        ("result.json", document),
-        ("beams.csv", &table),
-        ("model.vtp", &model_vtp(model, solution, evaluation)),
-        ("shape.svg", &shape_svg(model, solution)),
-    ];
-    for (name, text) in files {
-        let path = folder.join(name);
-        fs::write(&path, text)
-            .map_err(|error| Failure::Machine(format!("cannot write {}: {error}", path.display())))?;
-    }
-    Ok(())
-}
-
-/// A result that holds a number which is none can only be one that did not converge, or a bug.
-fn unwritable(solution: &Solution, message: &str) -> Failure {
-    match solution.status {
-        Status::Converged => {
-            Failure::Machine(format!("{message}; this is a bug in flexura, please report it"))
-        }
-        _ => not_converged(solution),
-    }
 }
 
 fn not_converged(solution: &Solution) -> Failure {

@@ -8,6 +8,7 @@ mod joint;
 mod load;
 mod result;
 mod section;
+mod study;
 mod tubes;
 
 use section::check_section_alone;
@@ -144,6 +145,7 @@ impl Model {
         self.check_tubes(&mut issues);
         self.check_outputs(&mut issues);
         self.check_inverse(&mut issues);
+        self.check_studies(&mut issues);
         issues.0
     }
 

@@ -1,7 +1,7 @@
 //! Outputs, unknowns and targets.
 
 use super::Issues;
-use crate::{Model, Probe, ProbeTarget};
+use crate::{Model, Probe, ProbeTarget, Quantity};
 
 impl Model {
     pub(super) fn check_outputs(&self, issues: &mut Issues) {
@@ -14,7 +14,7 @@ impl Model {
         }
     }
 
-    fn check_probes(&self, probes: &[Probe], path: &str, issues: &mut Issues) {
+    pub(super) fn check_probes(&self, probes: &[Probe], path: &str, issues: &mut Issues) {
         for probe in probes {
             let exists = match probe.target {
                 ProbeTarget::Beam(beam, at) => {
@@ -28,7 +28,11 @@ impl Model {
                 ProbeTarget::Cable(id) => id.0 < self.cables.len(),
                 ProbeTarget::Model => true,
             };
-            if !exists || probe.component > 35 {
+            let components = match probe.quantity {
+                Quantity::Parameter => self.parameters.len(),
+                _ => 36,
+            };
+            if !exists || probe.component >= components {
                 issues.add(path, "an output refers to something that does not exist");
             }
         }

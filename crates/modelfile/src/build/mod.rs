@@ -10,6 +10,7 @@ mod load;
 mod material;
 mod place;
 mod result;
+mod study;
 mod tubes;
 mod unknown;
 
@@ -17,8 +18,8 @@ use crate::context::Context;
 use crate::format::{FILE, Key, Named, Shape, Table};
 use crate::parameters;
 use crate::reader::Reader;
-use crate::tree::{Entry, Value};
-use flexura_model::{Model, Parameter, name_problem};
+use crate::tree::{Entry, Node, Value};
+use flexura_model::{Model, Parameter, Study, name_problem};
 use flexura_spatial::Vector3;
 use std::collections::BTreeSet;
 
@@ -30,8 +31,9 @@ pub(crate) fn parameters(context: &mut Context<'_>, overrides: &[(String, String
     parameters::evaluate(context, overrides);
 }
 
-/// Reads the whole file. None: something is wrong, which has been recorded.
-pub(crate) fn model(context: &Context<'_>) -> Option<Model> {
+/// Reads the whole file. None: something is wrong, which has been recorded. With the studies of another model, it is one
+/// beside that: they are not read again, as the range of a path may lose its length when its parameter changes.
+pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<Model> {
     let root = context.root;
     let file = Reader::open_node(context, root, &(0..0), &FILE, "").ok()?;
     let mut model = Model {
@@ -69,7 +71,10 @@ pub(crate) fn model(context: &Context<'_>) -> Option<Model> {
     }
     model.unknowns = unknown::unknowns(context, &model);
     model.targets = result::targets(context, named_entries(context, "target"), &model, &outputs);
-    model.outputs = outputs.into_iter().map(|built| built.output).collect();
+    model.outputs = outputs.iter().map(|built| built.output.clone()).collect();
+    if beside.is_none() {
+        model.studies = study::studies(context, &model, &outputs);
+    }
     if !context.any_problem() {
         unknown::check_count(context, &model);
     }
@@ -85,7 +90,30 @@ pub(crate) fn model(context: &Context<'_>) -> Option<Model> {
         problem.hint = issue.hint;
         context.record(problem);
     }
-    (!context.any_problem()).then_some(model)
+    if context.any_problem() {
+        return None;
+    }
+    if let Some(studies) = beside {
+        model.studies = studies.to_vec();
+    }
+    Some(model)
+}
+
+/// Puts a study behind those of the file, under a name that none of them has.
+pub(crate) fn add_study(root: &mut Node, kind: &str, table: Node) {
+    let Value::Table(entries) = &mut root.value else { return };
+    let place = table.span.clone();
+    if !entries.iter().any(|entry| entry.key == "study") {
+        let node = Node { value: Value::Table(Vec::new()), span: place.clone() };
+        entries.push(Entry { key: "study".to_string(), key_span: place.clone(), node });
+    }
+    let studies = entries.iter_mut().find(|entry| entry.key == "study").map(|entry| &mut entry.node.value);
+    let Some(Value::Table(studies)) = studies else { return };
+    let mut key = kind.to_string();
+    while studies.iter().any(|entry| entry.key == key) {
+        key.push('_');
+    }
+    studies.push(Entry { key, key_span: place, node: table });
 }
 
 /// The entries of a table of named things; what is no table has been recorded on the way.

@@ -7,6 +7,7 @@ mod attachments;
 mod joints;
 mod relations;
 mod sections;
+mod studies;
 mod tables;
 mod tubes;
 
@@ -152,6 +153,14 @@ pub(crate) enum Shape {
     Unknowns(&'static Table),
     /// A table of values, named by expressions over results.
     NamedTargets,
+    /// The name of a parameter.
+    Parameter,
+    /// A whole number that is not negative.
+    Count,
+    /// true, false, or such a number.
+    FlagOrCount,
+    /// A text, or a list of texts.
+    Texts,
     /// A number of the dimension of something else.
     AnyNumber,
     /// Two such numbers.
@@ -233,6 +242,10 @@ impl Shape {
             Shape::Repeat => "indices, each with a count or its first and last value".into(),
             Shape::Unknowns(_) => "named tables".into(),
             Shape::NamedTargets => "numbers, named by expressions over results".into(),
+            Shape::Parameter => "the name of a parameter".into(),
+            Shape::Count => "a whole number".into(),
+            Shape::FlagOrCount => "true, false or a whole number".into(),
+            Shape::Texts => "a text, or a list of texts".into(),
             Shape::AnyNumber => "a number of the parameter's dimension".into(),
             Shape::AnyRange => "two numbers of the parameter's dimension".into(),
             Shape::Equation => "an equation between joint coordinates".into(),
@@ -246,7 +259,7 @@ impl Shape {
     /// How an error names what it wanted.
     pub(crate) fn wanted(&self) -> String {
         match self {
-            Shape::Name(_) | Shape::Choice(_) => "a text".into(),
+            Shape::Name(_) | Shape::Choice(_) | Shape::Parameter => "a text".into(),
             Shape::Vector(_) | Shape::Profiles(_) => "a list of 3 numbers".into(),
             Shape::Range(_) | Shape::AnyRange => "a list of 2 numbers".into(),
             Shape::Quaternion => "a list of 4 numbers".into(),

@@ -4,6 +4,7 @@ use super::attachments::{BODY, LOAD, MASS, SPRING};
 use super::joints::{END, JOINT};
 use super::relations::{CABLE, COUPLING, UNKNOWN};
 use super::sections::SECTION;
+use super::studies::STUDY;
 use super::tubes::TUBES;
 use super::{Key, Named, Need, Shape, Table, Variant, Variants};
 use Need::{Default, Optional, Required};
@@ -107,6 +108,13 @@ pub(crate) static FILE: Table = table(
             Optional,
             "{ \"body.slider.position.x\" = \"140 mm\" }",
             "Wanted values of results; each key is an expression over results as in [output], or over `output.NAME`.",
+        ),
+        key(
+            "study",
+            Shape::NamedTables(&STUDY),
+            Optional,
+            "{ buckling = { ... } }",
+            "What is to be done: an equilibrium, a path of equilibria, critical loads.",
         ),
     ],
 );

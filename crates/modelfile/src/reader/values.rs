@@ -8,6 +8,9 @@ use flexura_expression::{Dimension, Function, Kind, Quantity, nearest};
 use flexura_model::{At, BodyId, Mount, Profile};
 use flexura_spatial::Vector3;
 
+/// Larger counts are mistakes.
+const MOST_COUNT: f64 = 1e9;
+
 impl<'c> Reader<'c, '_> {
     fn expected(&self, node: &Node, path: &str, key: &Key) -> Reported {
         let message = format!("expected {}, found {}", key.shape.wanted(), node.kind());
@@ -23,10 +26,11 @@ impl<'c> Reader<'c, '_> {
         infinite: bool,
     ) -> Read<Quantity> {
         let Some(quantity) = self.context.quantity(node, path, infinite)? else {
-            let wanted = if matches!(key.shape, Shape::Number(_) | Shape::Notched(_)) {
-                key.shape.wanted()
-            } else {
-                dimension.to_string()
+            let wanted = match key.shape {
+                Shape::Number(_) | Shape::Notched(_) | Shape::Count | Shape::FlagOrCount => {
+                    key.shape.wanted()
+                }
+                _ => dimension.to_string(),
             };
             let message = format!("expected {wanted}, found {}", node.kind());
             return Err(self.context.wrong_with_hint(&node.span, path, message, example(key)));
@@ -45,6 +49,38 @@ impl<'c> Reader<'c, '_> {
 
     pub(crate) fn number(&self, name: &str) -> Read<Option<f64>> {
         Ok(self.quantity(name)?.map(|quantity| quantity.value))
+    }
+
+    /// A whole number that is not negative.
+    pub(crate) fn count(&self, name: &str) -> Read<Option<usize>> {
+        let Some((entry, key)) = self.entry(name) else { return Ok(None) };
+        let path = self.key_path(name);
+        let value = self.number_in(&entry.node, &path, key, &Dimension::NUMBER, false)?.value;
+        // Expressions may miss a whole number by rounding.
+        let whole = value.round();
+        if (value - whole).abs() > 1e-9 * whole.abs().max(1.0) || !(0.0..=MOST_COUNT).contains(&whole) {
+            let message = format!("expected {}, found {value}", key.shape.wanted());
+            return Err(self.context.wrong_with_hint(&entry.node.span, &path, message, example(key)));
+        }
+        Ok(Some(whole as usize))
+    }
+
+    /// A whole number, or false for none and true for `yes`.
+    pub(crate) fn flag_or_count(&self, name: &str, yes: usize) -> Read<Option<usize>> {
+        match self.entry(name) {
+            None => Ok(None),
+            Some((entry, key)) => match &entry.node.value {
+                Value::Flag(flag) => Ok(Some(if *flag { yes } else { 0 })),
+                Value::Text(text)
+                    if text.chars().all(char::is_alphabetic)
+                        && !self.context.parameters.contains_key(text) =>
+                {
+                    let message = format!("expected {}, found \"{text}\"", key.shape.wanted());
+                    Err(self.wrong_at(name, message, example(key)))
+                }
+                _ => self.count(name),
+            },
+        }
     }
 
     /// A list of a fixed number of numbers.
@@ -72,7 +108,13 @@ impl<'c> Reader<'c, '_> {
         result.map(|()| values)
     }
 
-    fn list_of<'n>(&self, node: &'n Node, path: &str, key: &Key, count: usize) -> Read<&'n [Node]> {
+    pub(crate) fn list_of<'n>(
+        &self,
+        node: &'n Node,
+        path: &str,
+        key: &Key,
+        count: usize,
+    ) -> Read<&'n [Node]> {
         let Value::List(list) = &node.value else { return Err(self.expected(node, path, key)) };
         if list.len() != count {
             let message = format!("expected {count} numbers, found {}", list.len());

@@ -1,17 +1,19 @@
 //! SVG text, piece by piece. Coordinates are pixels, y downwards.
 
+use std::borrow::Cow;
 use std::fmt::Write;
 
 /// How a line looks.
+#[derive(Clone)]
 pub struct Style {
-    colour: &'static str,
+    colour: Cow<'static, str>,
     width: f64,
     dashes: &'static str,
 }
 
 impl Style {
-    pub fn line(colour: &'static str, width: f64) -> Self {
-        Self { colour, width, dashes: "" }
+    pub fn line(colour: impl Into<Cow<'static, str>>, width: f64) -> Self {
+        Self { colour: colour.into(), width, dashes: "" }
     }
 
     pub fn dashed(mut self, dashes: &'static str) -> Self {
@@ -99,6 +101,33 @@ impl Canvas {
             centre[0],
             centre[1],
             style.attributes()
+        ));
+    }
+
+    /// A heading, bold.
+    pub fn heading(&mut self, at: [f64; 2], text: &str, size: f64) {
+        self.raw(&format!(
+            "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"{size}\" font-weight=\"bold\">{}</text>",
+            at[0],
+            at[1],
+            escape(text)
+        ));
+    }
+
+    /// A line of text that runs upwards, its middle at a place.
+    pub fn upright(&mut self, at: [f64; 2], text: &str, size: f64) {
+        self.raw(&format!(
+            "<text transform=\"translate({:.1} {:.1}) rotate(-90)\" text-anchor=\"middle\" font-size=\"{size}\">{}</text>",
+            at[0],
+            at[1],
+            escape(text)
+        ));
+    }
+
+    /// The ground of a view.
+    pub fn ground(&mut self, [x, y, width, height]: [f64; 4]) {
+        self.raw(&format!(
+            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"#fcfcfc\" stroke=\"#bbbbbb\"/>"
         ));
     }
 

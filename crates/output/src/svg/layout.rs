@@ -11,6 +11,8 @@ const BELOW: f64 = 64.0;
 const TOP: f64 = 82.0;
 /// The drawing itself, without labels, is at most this large, px.
 const LARGEST: [f64; 2] = [840.0, 640.0];
+/// The same of a view that stands alone.
+const LARGEST_SINGLE: [f64; 2] = [640.0, 480.0];
 /// Ticks are this far apart at least, px; closer where a narrow view would have too few.
 const TICK_DISTANCE: f64 = 52.0;
 const CLOSE_TICKS: f64 = 36.0;
@@ -29,6 +31,15 @@ pub struct Panel {
 }
 
 impl Panel {
+    fn new(axes: [usize; 2], frame: [f64; 4], [low, high]: [Vector3<f64>; 2], scale: f64) -> Self {
+        let title = match axes {
+            [0, 1] => "top view (xy)",
+            [0, _] => "front view (xz)",
+            _ => "side view (yz)",
+        };
+        Self { title, axes, frame, low: axes.map(|axis| low[axis]), high: axes.map(|axis| high[axis]), scale }
+    }
+
     /// Where a point lies on the sheet.
     pub fn point(&self, point: &Vector3<f64>) -> [f64; 2] {
         [self.horizontal(point[self.axes[0]]), self.vertical(point[self.axes[1]])]
@@ -73,8 +84,8 @@ pub struct Sheet {
     pub height: f64,
     /// Left edge of the drawing, px.
     pub left: f64,
-    /// Top view, front view, side view.
-    pub panels: [Panel; 3],
+    /// Top view, front view, side view; or one of them alone.
+    pub panels: Vec<Panel>,
     /// Top left corner of the legend, px.
     pub legend: [f64; 2],
     /// Unit of the tick labels.
@@ -88,13 +99,8 @@ pub struct Sheet {
 impl Sheet {
     /// Lays out the views of what lies between `low` and `high` (m).
     pub fn new([low, high]: [Vector3<f64>; 2], legend_lines: usize) -> Self {
-        let extent = high - low;
-        let largest = if extent.max() > 0.0 { extent.max() } else { 1.0 };
-        // A view that would be a bare line gets some height, and every view a margin.
-        let middle = (low + high) * 0.5;
-        let half = extent.map(|e| 0.5 * e.max(0.16 * largest) + 0.09 * largest);
-        let (low, high) = (middle - half, middle + half);
-        let size = half * 2.0;
+        let (low, high, largest) = with_margins([low, high]);
+        let size = high - low;
         let scale = (LARGEST[0] / (size.x + size.y)).min(LARGEST[1] / (size.y + size.z));
         let (width, depth, height) = (scale * size.x, scale * size.y, scale * size.z);
 
@@ -104,26 +110,13 @@ impl Sheet {
         let legend_height = LEGEND_LINE * legend_lines as f64;
         let second_column = LEFT + width + LEFT;
         let second_row = TOP + depth.max(legend_height) + BELOW;
-        let panel = |title, axes: [usize; 2], left, top, width, height| Panel {
-            title,
-            axes,
-            frame: [left, top, width, height],
-            low: axes.map(|axis| low[axis]),
-            high: axes.map(|axis| high[axis]),
-            scale,
-        };
-        let panels = [
-            panel("top view (xy)", [0, 1], LEFT, TOP, width, depth),
-            panel("front view (xz)", [0, 2], LEFT, second_row, width, height),
-            panel("side view (yz)", [1, 2], second_column, second_row, depth, height),
+        let panel = |axes, frame| Panel::new(axes, frame, [low, high], scale);
+        let panels = vec![
+            panel([0, 1], [LEFT, TOP, width, depth]),
+            panel([0, 2], [LEFT, second_row, width, height]),
+            panel([1, 2], [second_column, second_row, depth, height]),
         ];
-        let (unit, per_metre) = match largest {
-            size if size >= 1e3 => ("km", 1e-3),
-            size if size >= 1.0 => ("m", 1.0),
-            size if size >= 1e-3 => ("mm", 1e3),
-            size if size >= 1e-6 => ("µm", 1e6),
-            _ => ("nm", 1e9),
-        };
+        let (unit, per_metre) = unit_for(largest);
         Self {
             width: second_column + depth.max(LEGEND_WIDTH) + 24.0,
             height: second_row + height + 44.0,
@@ -133,6 +126,28 @@ impl Sheet {
             unit,
             per_metre,
             step,
+        }
+    }
+
+    /// Lays out one view, beside a legend of that height, px.
+    pub fn single(bounds: [Vector3<f64>; 2], axes: [usize; 2], legend_height: f64) -> Self {
+        let (low, high, largest) = with_margins(bounds);
+        let size = axes.map(|axis| high[axis] - low[axis]);
+        let scale = (LARGEST_SINGLE[0] / size[0]).min(LARGEST_SINGLE[1] / size[1]);
+        let (width, height) = (scale * size[0], scale * size[1]);
+        let wide = nice_step(TICK_DISTANCE / scale);
+        let is_narrow = size[0].min(size[1]) < 2.0 * wide;
+        let (unit, per_metre) = unit_for(largest);
+        let right = LEFT + width + 28.0;
+        Self {
+            width: right + LEGEND_WIDTH,
+            height: TOP + height.max(legend_height) + 44.0,
+            left: LEFT,
+            panels: vec![Panel::new(axes, [LEFT, TOP, width, height], [low, high], scale)],
+            legend: [right, TOP],
+            unit,
+            per_metre,
+            step: if is_narrow { nice_step(CLOSE_TICKS / scale) } else { wide },
         }
     }
 
@@ -148,8 +163,28 @@ impl Sheet {
     }
 }
 
+/// The corners with a margin, and the largest extent without. A view that would be a bare line gets some height.
+fn with_margins([low, high]: [Vector3<f64>; 2]) -> (Vector3<f64>, Vector3<f64>, f64) {
+    let extent = high - low;
+    let largest = if extent.max() > 0.0 { extent.max() } else { 1.0 };
+    let middle = (low + high) * 0.5;
+    let half = extent.map(|e| 0.5 * e.max(0.16 * largest) + 0.09 * largest);
+    (middle - half, middle + half, largest)
+}
+
+/// The unit of lengths of this size, and how many of it a metre is.
+fn unit_for(largest: f64) -> (&'static str, f64) {
+    match largest {
+        size if size >= 1e3 => ("km", 1e-3),
+        size if size >= 1.0 => ("m", 1.0),
+        size if size >= 1e-3 => ("mm", 1e3),
+        size if size >= 1e-6 => ("µm", 1e6),
+        _ => ("nm", 1e9),
+    }
+}
+
 /// The smallest of 1, 2, 5 times a power of ten that is at least `least`.
-fn nice_step(least: f64) -> f64 {
+pub fn nice_step(least: f64) -> f64 {
     let power = 10f64.powf(least.log10().floor());
     [1.0, 2.0, 5.0].into_iter().map(|m| m * power).find(|step| *step >= least).unwrap_or(10.0 * power)
 }

@@ -1,4 +1,4 @@
-//! `shape.svg`: the initial and the deformed shape in the three principal views.
+//! Pictures. `shape.svg`: the initial and the deformed shape in the three principal views.
 //!
 //! The views stand as in an engineering drawing and share one scale:
 //!
@@ -9,12 +9,20 @@
 //!
 //! so x lines up between top and front, z between front and side.
 
+mod axis;
 mod canvas;
+mod curve;
+mod diagram;
 mod layout;
 mod marks;
 mod scene;
+mod series;
+mod shapes;
 
-use canvas::{Canvas, Style, escape};
+pub use diagram::diagram_svg;
+pub use shapes::{modes_svg, shapes_svg};
+
+use canvas::{Canvas, Style};
 use flexura_model::Model;
 use flexura_solution::{Solution, Status};
 use layout::{Panel, Sheet};
@@ -38,11 +46,7 @@ pub fn shape_svg(model: &Model, solution: &Solution) -> String {
 
     let title = if model.name.is_empty() { "mechanism" } else { &model.name };
     let room = (sheet.width - sheet.left) / 9.5;
-    canvas.raw(&format!(
-        "<text x=\"{:.1}\" y=\"26\" font-size=\"16\" font-weight=\"bold\">{}</text>",
-        sheet.left,
-        escape(&shortened(title, room as usize))
-    ));
+    canvas.heading([sheet.left, 26.0], &shortened(title, room as usize), 16.0);
     let state = match solution.status {
         Status::Converged => "in equilibrium".to_owned(),
         status => {
@@ -65,14 +69,8 @@ pub fn shape_svg(model: &Model, solution: &Solution) -> String {
 
 fn draw_axes(canvas: &mut Canvas, sheet: &Sheet, panel: &Panel) {
     let [x, y, width, height] = panel.frame;
-    canvas.raw(&format!(
-        "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"#fcfcfc\" stroke=\"#bbbbbb\"/>"
-    ));
-    canvas.raw(&format!(
-        "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"12\" font-weight=\"bold\">{}</text>",
-        y - 8.0,
-        panel.title
-    ));
+    canvas.ground(panel.frame);
+    canvas.heading([x, y - 8.0], panel.title, 12.0);
     let grid = Style::line("#e9e9e9", 0.8);
     for (value, label) in sheet.ticks(panel.axes[0], panel) {
         let at = panel.horizontal(value);
@@ -87,11 +85,7 @@ fn draw_axes(canvas: &mut Canvas, sheet: &Sheet, panel: &Panel) {
     let names = ["x", "y", "z"];
     let [across, up] = panel.axes.map(|axis| format!("{} / {}", names[axis], sheet.unit));
     canvas.text([x + 0.5 * width, y + height + 30.0], &across, "middle", 11.5, INK);
-    canvas.raw(&format!(
-        "<text transform=\"translate({:.1} {:.1}) rotate(-90)\" text-anchor=\"middle\" font-size=\"11.5\">{up}</text>",
-        x - 44.0,
-        y + 0.5 * height
-    ));
+    canvas.upright([x - 44.0, y + 0.5 * height], &up, 11.5);
 }
 
 fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
@@ -194,7 +188,7 @@ fn draw_legend(canvas: &mut Canvas, origin: [f64; 2], entries: &[Entry]) {
                 "initial shape".to_owned()
             }
             Entry::Beam { name, colour } => {
-                canvas.line(left, right, &Style::line(colour, 2.4));
+                canvas.line(left, right, &Style::line(*colour, 2.4));
                 shortened(name, 20)
             }
             Entry::MoreBeams(count) => format!("and {count} more"),

@@ -1,18 +1,220 @@
 //! Critical loads of the problem linearised about an equilibrium.
+//!
+//! Near an equilibrium x0 at the parameter p0, with the rate x' = -J⁻¹ ∂r/∂p, the second variation is H0 + (p - p0) H1. It becomes singular
+//! where H0 φ = -μ H1 φ, at p = p0 + μ: classical linear buckling, in which what happens before does not bend the mechanism. H1
+//! is a central difference along (x', 1). Beams are cut into short stretches, each with its exact transfer map, so that only the
+//! dependence on the load is linearised; the error goes with even powers of their length, of which three approximations take away
+//! two (Romberg).
 
-use crate::{Family, Options, ProblemError};
+use super::record::Reader;
+use super::ritz;
+use crate::family::{SMALL, size_of};
+use crate::{Family, Options, Prepared, ProblemError};
+use flexura_equilibrium::Variation;
 use flexura_model::{BuckleStudy, Model};
-use flexura_solution::Buckling;
+use flexura_nonlinear::{Breakdown, NewtonEnd, NewtonOptions, System, converge};
+use flexura_solution::{Buckling, BucklingMode, Status};
 
-/// Critical loads of the linearised problem.
+/// Stretches that a smooth part of a beam is cut into, for three approximations.
+const PARTS: [usize; 3] = [12, 24, 48];
+/// Size of the change of the state along which the second variation is differenced.
+const CHANGE: f64 = 1e-2;
+/// Steps of the load to a fraction of it.
+const LOAD_STEPS: usize = 20;
+
+/// Critical loads of the linearised problem, nearest to the equilibrium's own first: those beyond it in the direction of growing
+/// values, or below it where there are none beyond.
 ///
 /// # Errors
-/// A model that describes no solvable mechanism.
+/// A model that describes no solvable mechanism, or one without an energy.
 pub fn buckle(
-    _model: &Model,
-    _family: &mut dyn Family,
-    _study: &BuckleStudy,
-    _options: &Options,
+    model: &Model,
+    family: &mut dyn Family,
+    study: &BuckleStudy,
+    options: &Options,
 ) -> Result<Buckling, ProblemError> {
-    Err(ProblemError::new("study", "cannot be done", ""))
+    let wrong = |why: String, hint: &str| ProblemError::new("study", why, hint);
+    let base = match study.parameter {
+        Some(parameter) => family.model(&[(parameter, study.at)])?,
+        None => model.clone(),
+    };
+    let mut prepared = Prepared::new(&base)?;
+    let outcome = match study.parameter {
+        Some(_) => prepared.solve(options.tolerance, &mut |_| {}),
+        None => prepared.part_of_load(study.at, options.tolerance)?,
+    };
+    let mut solution = prepared.solution(&outcome, options.samples);
+    if outcome.status != Status::Converged {
+        return Ok(Buckling { parameter: study.parameter, at: study.at, solution, modes: Vec::new() });
+    }
+    if let Some(why) = prepared.problem.without_energy() {
+        return Err(wrong(
+            format!("has no linear buckling: {why}"),
+            "apply the moment through a joint to the ground, or use loads that keep their direction",
+        ));
+    }
+    let critical = |_| {
+        wrong(
+            "is linearised about an equilibrium that is itself critical".to_string(),
+            "choose another value of `at`",
+        )
+    };
+    let reader = Reader { watched: Vec::new(), samples: options.samples };
+    let wanted = study.count.max(1);
+    let mut levels: Vec<Vec<f64>> = Vec::with_capacity(PARTS.len());
+    let mut modes = Vec::new();
+    for parts in PARTS {
+        let mut pencil = prepared.pencil(family, study, parts).map_err(|error| match error {
+            Failure::Breakdown(breakdown) => critical(breakdown),
+            Failure::Problem(error) => error,
+        })?;
+        let size = pencil.base.size();
+        let found = ritz::smallest(&mut |x| pencil.apply(x), size, 2 * wanted + 4);
+        let beyond = found.iter().any(|(value, _)| *value > 0.0);
+        let mut found: Vec<_> = found.into_iter().filter(|(value, _)| (*value > 0.0) == beyond).collect();
+        found.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        found.truncate(wanted);
+        if levels.len() + 1 == PARTS.len() {
+            for (i, (value, x)) in found.iter().enumerate() {
+                let (value, error_estimate) = romberg(&levels, i, *value);
+                let step = prepared.problem.step_of(&pencil.base, x);
+                let direction = reader.direction(&mut prepared.problem, &step);
+                modes.push(BucklingMode { value: study.at + value, error_estimate, direction });
+            }
+        }
+        levels.push(found.into_iter().map(|(value, _)| value).collect());
+    }
+    if modes.len() < wanted {
+        solution.warnings.push(format!("only {} critical values were found", modes.len()));
+    }
+    Ok(Buckling { parameter: study.parameter, at: study.at, solution, modes })
+}
+
+/// The value for stretches of no length, from those at two coarser levels and the finest, and its estimated error.
+fn romberg(levels: &[Vec<f64>], i: usize, finest: f64) -> (f64, f64) {
+    let at = |level: usize| levels.get(level).and_then(|list| list.get(i)).copied();
+    let (Some(first), Some(second)) = (at(0), at(1)) else { return (finest, finest.abs()) };
+    let (a, b) = (second + (second - first) / 3.0, finest + (finest - second) / 3.0);
+    let better = (b - a) / 15.0;
+    (b + better, better.abs())
+}
+
+enum Failure {
+    Breakdown(Breakdown),
+    Problem(ProblemError),
+}
+
+impl From<Breakdown> for Failure {
+    fn from(breakdown: Breakdown) -> Self {
+        Failure::Breakdown(breakdown)
+    }
+}
+
+/// H0 factorised, and the two sides of the difference.
+struct Pencil {
+    base: Variation,
+    sides: [Variation; 2],
+    width: f64,
+    work: Vec<f64>,
+}
+
+impl Pencil {
+    /// `x ← -H0⁻¹ H1 x`, whose eigenvalues are 1/μ.
+    fn apply(&mut self, x: &mut [f64]) {
+        self.work.clear();
+        self.work.resize(x.len(), 0.0);
+        let factor = -0.5 / self.width;
+        self.sides[0].multiply(-factor, x, &mut self.work);
+        self.sides[1].multiply(factor, x, &mut self.work);
+        x.copy_from_slice(&self.work);
+        self.base.solve(x);
+    }
+}
+
+impl Prepared {
+    /// The equilibrium under a fraction of all loads and drives.
+    fn part_of_load(&mut self, fraction: f64, tolerance: f64) -> Result<crate::Outcome, ProblemError> {
+        self.problem.rest();
+        let newton = NewtonOptions { tolerance: 1e-9, iterations: 30, nearest: f64::INFINITY };
+        for i in 1..=LOAD_STEPS {
+            self.problem.set_load(fraction * i as f64 / LOAD_STEPS as f64);
+            self.problem.renew();
+            if !matches!(converge(&mut self.problem, &newton), NewtonEnd::Converged { .. }) {
+                return Err(ProblemError::new(
+                    "study",
+                    format!("finds no equilibrium under {fraction} of the load"),
+                    "choose a smaller value of `at`",
+                ));
+            }
+        }
+        Ok(self.finish(tolerance, flexura_nonlinear::PathWork::default(), f64::INFINITY))
+    }
+
+    fn pencil(
+        &mut self,
+        family: &mut dyn Family,
+        study: &BuckleStudy,
+        parts: usize,
+    ) -> Result<Pencil, Failure> {
+        self.problem.linearise()?;
+        let along = match study.parameter {
+            Some(parameter) => {
+                let size = size_of(self.problem.model(), parameter, self.problem.units(), SMALL);
+                self.state_slope(family, parameter, study.at, 1e-3 * size).map_err(|error| match error {
+                    crate::SensitivityError::Model(error) => Failure::Problem(error),
+                    crate::SensitivityError::Tangent(breakdown) => Failure::Breakdown(breakdown),
+                    crate::SensitivityError::Output(_) => Failure::Breakdown(Breakdown::NotFinite),
+                })?
+            }
+            None => self.problem.response()?,
+        };
+        let size = self.problem.size(&along);
+        // Where all forces are known the state does not show them.
+        let one = match study.parameter {
+            Some(parameter) => size_of(self.problem.model(), parameter, self.problem.units(), 1.0),
+            None => 1.0,
+        };
+        let width = if size > 0.0 { (CHANGE / size).min(one) } else { CHANGE * one };
+        let mut base = self.problem.variation(parts)?;
+        let mut kept = Vec::new();
+        self.problem.store(&mut kept);
+        let mut sides = Vec::with_capacity(2);
+        for sign in [-1.0, 1.0] {
+            let step: Vec<f64> = along.iter().map(|a| a * sign * width).collect();
+            let law = match study.parameter {
+                Some(parameter) => {
+                    let model = family
+                        .model(&self.values_with(parameter, study.at + sign * width))
+                        .map_err(Failure::Problem)?;
+                    Some(self.problem.neighbour(&model).map_err(Failure::Problem)?)
+                }
+                None => None,
+            };
+            let load = self.problem.load_fraction();
+            self.problem.retract(&step);
+            let side = match law {
+                Some(law) => {
+                    let own = self.problem.exchange(law);
+                    let side = self.problem.variation(parts);
+                    self.problem.exchange(own);
+                    side
+                }
+                None => {
+                    self.problem.set_load(load + sign * width);
+                    let side = self.problem.variation(parts);
+                    self.problem.set_load(load);
+                    side
+                }
+            };
+            self.problem.restore(&kept);
+            sides.push(side?);
+        }
+        base.factorise()?;
+        match <[Variation; 2]>::try_from(sides) {
+            Ok(sides) if sides.iter().all(|side| side.fits(&base)) => {
+                Ok(Pencil { base, sides, width, work: Vec::new() })
+            }
+            _ => Err(Failure::Breakdown(Breakdown::Singular)),
+        }
+    }
 }

@@ -58,6 +58,9 @@ const REFINEMENTS: usize = 6;
 /// By how much half as long steps reduce the error, at least.
 const GAIN: f64 = 32.0;
 
+/// Error of a critical point that was found on the path's own mesh only.
+const COARSE: f64 = 1e-6;
+
 /// Something on the way between two points.
 enum Passed {
     Special(Special),
@@ -385,7 +388,7 @@ impl Follower<'_> {
         let mut error = f64::INFINITY;
         for _ in 0..REFINEMENTS {
             traced.finer();
-            let Ok(found) = sharpen(traced, special) else { return error };
+            let Ok(found) = sharpen(traced, special) else { return error.min(COARSE) };
             let moved = between(traced, &special.point, &found.point).size(traced.problem());
             *special = found;
             error = moved / GAIN + 1e-13;

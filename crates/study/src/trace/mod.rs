@@ -9,6 +9,7 @@ mod leg;
 mod line;
 mod problem;
 mod record;
+mod ritz;
 mod search;
 
 pub use branches::trace;

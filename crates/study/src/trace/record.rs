@@ -1,6 +1,7 @@
 //! Points of a path as they are reported.
 
 use super::problem::Traced;
+use crate::solve::CRITICAL;
 use flexura_continuation::{Crossing as Met, Place};
 use flexura_equilibrium::Equilibrium;
 use flexura_model::{BeamPoint, Output, ProbeTarget, Target};
@@ -123,9 +124,6 @@ impl Reader {
         direction
     }
 }
-
-/// Why a point itself has no verdict.
-const CRITICAL: &str = "the equilibrium is critical: a direction gives way without resistance";
 
 /// The largest displacement one metre; where it is nothing beside the turning, the largest turning one radian.
 fn normalise(direction: &mut Direction, length: f64) {

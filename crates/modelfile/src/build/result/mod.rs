@@ -1,9 +1,11 @@
 //! Results: expressions over them, in outputs and targets.
 
+mod event;
 mod readable;
 mod target;
 mod walk;
 
+pub(super) use event::{event, stop};
 pub(super) use readable::{Part, coordinates};
 pub(super) use target::targets;
 pub(super) use walk::Walk;
@@ -14,7 +16,7 @@ use crate::reader::station;
 use crate::tree::{Entry, Node, Value};
 use flexura_expression::{Binding, Expression, ExpressionError, Formula, Kind, Reference, Segment, nearest};
 use flexura_model::{
-    At, BeamId, BodyId, CableId, JointId, Model, Output, Probe, ProbeTarget, SpringId, TubesId,
+    At, BeamId, BodyId, CableId, JointId, Model, Output, Probe, ProbeTarget, Quantity, SpringId, TubesId,
 };
 use readable::{of_beam, of_body, of_joint, of_line, of_model, of_tubes};
 use std::cell::Cell;
@@ -23,6 +25,7 @@ use walk::Meaning;
 const ROOTS: &[&str] = &["beam", "body", "joint", "spring", "cable", "tubes", "model"];
 
 /// An output with what is known of its dimension.
+#[derive(Clone)]
 pub(super) struct Built {
     pub output: Output,
     pub kind: Kind,
@@ -35,8 +38,23 @@ pub(super) fn output(context: &Context<'_>, entry: &Entry, model: &Model) -> Rea
         let hint = format!("for example `{} = \"beam.link.end.position.z\"`", entry.key);
         return Err(context.wrong_with_hint(&entry.node.span, &path, message, hint));
     };
-    let results = Results { context, model, outputs: None };
+    let results = Results { context, model, outputs: None, is_live: false };
     results.read(&entry.node, &path, text, entry.key.clone())
+}
+
+/// The outputs with their parameters left open, as events need them: a path changes one, and others with it.
+pub(super) fn live_outputs(context: &Context<'_>, model: &Model, outputs: &[Built]) -> Vec<Built> {
+    let results = Results { context, model, outputs: None, is_live: true };
+    let count = context.count();
+    let live = |built: &Built| {
+        let entry = context.root.get("output")?.node.get(&built.output.name)?;
+        let Value::Text(text) = &entry.node.value else { return None };
+        let live = results.read(&entry.node, "", text, entry.key.clone()).ok();
+        // What can only be read with a parameter's value, such as a power, keeps that.
+        context.forget(count);
+        live
+    };
+    outputs.iter().map(|built| live(built).unwrap_or_else(|| built.clone())).collect()
 }
 
 /// What an expression over results may refer to.
@@ -45,6 +63,8 @@ struct Results<'r, 'a> {
     model: &'r Model,
     /// The outputs, where they may be referred to.
     outputs: Option<&'r [Built]>,
+    /// Do parameters stay open, as probes?
+    is_live: bool,
 }
 
 impl Results<'_, '_> {
@@ -93,14 +113,21 @@ impl Results<'_, '_> {
             Segment::Index(_) => false,
         };
         if !is_result {
-            return self.context.parameter(reference, text, silent).map(Binding::Value).map_err(
-                |mut error| {
-                    if error.hint.as_deref().is_some_and(|hint| !hint.starts_with("did you mean")) {
-                        error.hint = Some(self.roots());
-                    }
-                    error
-                },
-            );
+            let quantity = self.context.parameter(reference, text, silent).map_err(|mut error| {
+                if error.hint.as_deref().is_some_and(|hint| !hint.starts_with("did you mean")) {
+                    error.hint = Some(self.roots());
+                }
+                error
+            })?;
+            let position = self.model.parameters.iter().position(|p| reference.name() == Some(&p.name));
+            return Ok(match position.filter(|_| self.is_live) {
+                Some(component) => {
+                    let target = ProbeTarget::Model;
+                    let probe = Probe { target, quantity: Quantity::Parameter, component };
+                    Binding::Slot(slot(probes, probe), quantity.kind)
+                }
+                None => Binding::Value(quantity),
+            });
         }
         if let (Some(outputs), Segment::Name(root)) = (self.outputs, &reference.segments[0].0)
             && root == "output"

@@ -1,0 +1,120 @@
+//! The second variation as a matrix for others: to be changed along a direction, and its vectors read as steps of the state.
+
+use super::assemble::{Motions, Numbers, Target, vector};
+use super::mesh::Cut;
+use crate::held::Held;
+use crate::system::Equilibrium;
+use flexura_nonlinear::{Breakdown, Symmetric, System};
+use flexura_spatial::{Twist, Vector3};
+use nalgebra::Vector6;
+
+/// The second variation at one state.
+pub struct Variation {
+    matrix: Symmetric,
+    cuts: Vec<Cut>,
+    numbers: Vec<Numbers>,
+    columns: Vec<Target>,
+}
+
+impl Variation {
+    /// Number of its unknowns.
+    pub fn size(&self) -> usize {
+        self.matrix.size()
+    }
+
+    /// Were both made of as many stretches?
+    pub fn fits(&self, other: &Self) -> bool {
+        self.size() == other.size()
+            && self.cuts.iter().zip(&other.cuts).all(|(a, b)| a.forms.len() == b.forms.len())
+    }
+
+    /// Adds `factor` times the matrix times `x`.
+    pub fn multiply(&self, factor: f64, x: &[f64], out: &mut [f64]) {
+        self.matrix.for_each(|i, j, value| out[i] += factor * value * x[j]);
+    }
+
+    /// Factorises the matrix for [`Variation::solve`].
+    ///
+    /// # Errors
+    /// It has no inverse: the state is critical.
+    pub fn factorise(&mut self) -> Result<(), Breakdown> {
+        let inertia = self.matrix.factorise()?;
+        if inertia.zero > 0 { Err(Breakdown::Singular) } else { Ok(()) }
+    }
+
+    /// Solves in place.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        self.matrix.solve(x);
+    }
+}
+
+impl Equilibrium {
+    /// The second variation at the present state, every smooth stretch of a beam cut into `parts` at least.
+    ///
+    /// # Errors
+    /// A number overflows.
+    pub fn variation(&mut self, parts: usize) -> Result<Variation, Breakdown> {
+        // Levels of force, by which beams are cut, are those of the last evaluation.
+        self.residual()?;
+        let (_, cuts, numbers) = self.second_variation(parts)?;
+        let total = self.layout.interface + numbers.iter().map(Numbers::count).sum::<usize>();
+        let (_, columns, ..) = self.targets(&numbers, total);
+        Ok(Variation { matrix: self.second.symmetric.clone(), cuts, numbers, columns })
+    }
+
+    /// Why the mechanism has no second variation; None where it has one.
+    pub fn without_energy(&self) -> Option<String> {
+        self.undecided()
+    }
+
+    /// The step of the state that a vector of the second variation at this state stands for.
+    pub fn step_of(&self, variation: &Variation, x: &[f64]) -> Vec<f64> {
+        let mut step = vec![0.0; self.layout.unknowns];
+        let value = |plain: usize| variation.columns[plain].at.map_or(0.0, |at| x[at]);
+        for (plain, entry) in step.iter_mut().enumerate().take(self.layout.interface) {
+            *entry = value(plain);
+        }
+        let six = |first: usize| Vector6::from_fn(|i, _| value(first + i));
+        for (span, (cut, own)) in variation.cuts.iter().zip(&variation.numbers).enumerate() {
+            let (slots, description) = (&self.layout.spans[span], &self.lowered.spans[span]);
+            let moved = |held: &Held, unknown: usize| {
+                let mut list = Motions::new();
+                self.target_columns(held, unknown, |unknown, Twist { angular, linear }| {
+                    list.push((unknown, vector(angular, linear)));
+                });
+                list.iter().map(|(unknown, x)| x * value(*unknown)).sum::<Vector6<f64>>()
+            };
+            for (segment, &k) in cut.segments.iter().enumerate() {
+                let form = &cut.forms[k];
+                let before = match own.pose_before(k) {
+                    Some(pose) => six(pose),
+                    None => moved(&self.held_by(&description.start, &slots.start), slots.start.unknown),
+                };
+                let after = match (own.pose(k), &description.end) {
+                    (Some(pose), _) => six(pose),
+                    (None, Some(end)) => moved(&self.held_by(end, &slots.end), slots.end.unknown),
+                    (None, None) => Vector6::zeros(),
+                };
+                let mut change = -(form.aa * before + form.ba.tr_mul(&after));
+                // From exponential coordinates to a plain change of the moment: less ½ M × θ.
+                let turn = Vector3::new(before[0], before[1], before[2]);
+                let back = Vector3::from(form.start_moment).cross(&turn) * 0.5;
+                (0..3).for_each(|i| change[i] -= back[i]);
+                // Ours is moment, then force.
+                let mut wrench = [0.0; 6];
+                for (i, to) in wrench.iter_mut().enumerate() {
+                    *to = change[(i + 3) % 6];
+                }
+                if segment == 0 {
+                    let slot = &slots.wrench;
+                    step[slot.unknown..slot.unknown + slot.count].copy_from_slice(&wrench[6 - slot.count..]);
+                } else {
+                    let at = slots.inner[segment - 1].unknown;
+                    step[at..at + 6].copy_from_slice(before.as_slice());
+                    step[at + 6..at + 12].copy_from_slice(&wrench);
+                }
+            }
+        }
+        step
+    }
+}

@@ -1,0 +1,66 @@
+//! `flexura buckle FILE`
+
+use super::{file_failure, problem_failure};
+use crate::answer::{Answer, StudyDocument, Task, unwritable};
+use crate::arguments::BuckleArguments;
+use crate::buckling_summary;
+use crate::failure::Failure;
+use flexura::model::{BuckleStudy, StudyKind};
+use flexura::modelfile::{Document, Flag};
+use flexura::output::{OutputError, modes_csv, modes_svg};
+use flexura::solution::{Solution, Status};
+use flexura::{Buckled, FileFamily};
+
+pub fn run(arguments: &BuckleArguments) -> Result<(), Failure> {
+    let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
+    let file = file.with_study("buckle", &flags(arguments)).map_err(|report| file_failure(&report))?;
+    let task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
+    match task.model.studies.last().map(|study| &study.kind) {
+        Some(StudyKind::Buckle(buckle)) => task.deliver(study(&task, buckle)?),
+        _ => Err(Failure::Machine(
+            "the flags made no study; this is a bug in flexura, please report it".into(),
+        )),
+    }
+}
+
+fn flags(arguments: &BuckleArguments) -> Vec<Flag> {
+    let all = [("parameter", &arguments.parameter), ("at", &arguments.at), ("count", &arguments.count)];
+    all.into_iter().filter(|(_, value)| value.is_some()).map(|(flag, value)| (flag, value.clone())).collect()
+}
+
+/// Critical loads of a file's model.
+pub fn study(task: &Task<'_>, study: &BuckleStudy) -> Result<Answer, Failure> {
+    let mut family = FileFamily::new(&task.file, task.overrides, &task.model);
+    let buckled = Buckled::new(&task.model, &mut family, study, &task.options)
+        .map_err(|error| problem_failure(&task.file, &error))?;
+    let (model, buckling) = (&buckled.model, &buckled.buckling);
+
+    let refused = |error: OutputError| unwritable(failure(&buckling.solution), &error.to_string());
+    let mut document = None;
+    let mut files = Vec::new();
+    if task.wants_document() {
+        document = Some(StudyDocument::Buckling(Box::new(buckled.document().map_err(refused)?)));
+        if task.folder.is_some() {
+            files.push(("modes.csv", modes_csv(model, buckling).map_err(refused)?));
+            files.push(("shapes.svg", modes_svg(model, buckling)));
+        }
+    }
+    let mut warnings = buckling.solution.warnings.clone();
+    warnings.extend(buckled.without_value.iter().map(ToString::to_string));
+    Ok(Answer {
+        document,
+        files,
+        summary: buckling_summary::render(model, study, buckling),
+        warnings,
+        failure: failure(&buckling.solution),
+    })
+}
+
+fn failure(solution: &Solution) -> Option<Failure> {
+    if solution.status == Status::Converged {
+        return None;
+    }
+    let word = solution.status.word().replace('_', " ");
+    let reason = solution.reason.as_deref().unwrap_or("the equilibrium could not be found");
+    Some(Failure::NotConverged(format!("not converged, {word}: {reason}")))
+}

@@ -1,0 +1,108 @@
+//! `flexura run FILE [STUDY]`
+
+use super::{buckle, file_failure, solve, trace, warn_about};
+use crate::answer::{Answer, StudyDocument, Task, json};
+use crate::arguments::RunArguments;
+use crate::failure::Failure;
+use crate::screen::{self, BOLD, styled};
+use flexura::model::{Study, StudyKind};
+use flexura::modelfile::Document;
+use flexura::output::Named;
+use flexura::{Error, study_named};
+use serde::Serialize;
+
+pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
+    let task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
+    let studies = chosen(&task, arguments.study.as_deref())?;
+    if !task.is_quiet {
+        warn_about(&task.file, &[]);
+    }
+    let mut documents = Vec::new();
+    let mut failed = Vec::new();
+    for study in &studies {
+        let answer = answer(&task, study)?;
+        let folder = task.folder.as_ref().map(|folder| folder.join(&study.name));
+        task.write(&answer, folder.as_deref())?;
+        if !task.is_quiet && !task.is_json {
+            let heading = styled(BOLD, &format!("study {}", study.name));
+            let gap = if study.name == studies[0].name { "" } else { "\n" };
+            screen::print(&format!("{gap}{heading}\n{}", answer.summary))?;
+        }
+        if !task.is_quiet {
+            answer.warnings.iter().for_each(|warning| screen::warn(&format!("{}: {warning}", study.name)));
+            task.tell_files(&answer, folder.as_deref());
+        }
+        failed.extend(answer.failure.map(|failure| (study.name.as_str(), failure)));
+        documents.extend(answer.document.map(|document| (study.name.clone(), document)));
+    }
+    if task.is_json {
+        screen::print(&match (&arguments.study, documents.pop()) {
+            (Some(_), Some((_, only))) => json(&only)?,
+            (_, last) => {
+                documents.extend(last);
+                json(&RunDocument {
+                    flexura: env!("CARGO_PKG_VERSION"),
+                    model: &task.model.name,
+                    study: "run",
+                    status: if failed.is_empty() { "converged" } else { "incomplete" },
+                    studies: Named(documents),
+                })?
+            }
+        })?;
+    }
+    end(failed, studies.len())
+}
+
+/// The study of that name, or all of them.
+fn chosen<'t>(task: &'t Task<'_>, name: Option<&str>) -> Result<Vec<&'t Study>, Failure> {
+    let Some(name) = name else {
+        if task.model.studies.is_empty() {
+            let hint = "write a table such as [study.path] with `kind = \"trace\"`, or use `flexura solve`, `trace` or `buckle`";
+            let problem = task.file.problem("study", "the file has no studies", Some(hint));
+            return Err(Failure::Input(problem.render(true)));
+        }
+        return Ok(task.model.studies.iter().collect());
+    };
+    let study = study_named(&task.file, &task.model, name).map_err(|error| match error {
+        Error::File(report) => file_failure(&report),
+        Error::Model(error) => super::problem_failure(&task.file, &error),
+    })?;
+    Ok(vec![study])
+}
+
+fn answer(task: &Task<'_>, study: &Study) -> Result<Answer, Failure> {
+    match &study.kind {
+        StudyKind::Solve => solve::study(task, None),
+        StudyKind::Trace(trace) => trace::study(task, trace),
+        StudyKind::Buckle(buckle) => buckle::study(task, buckle),
+    }
+}
+
+/// The end of all of them: the worst of theirs, which names the studies that failed.
+fn end(mut failed: Vec<(&str, Failure)>, count: usize) -> Result<(), Failure> {
+    let worst = failed.iter().position(|(_, failure)| !matches!(failure, Failure::NotConverged(_)));
+    match failed.len() {
+        0 => Ok(()),
+        1 if count == 1 => Err(failed.swap_remove(0).1),
+        _ => {
+            let list: Vec<String> =
+                failed.iter().map(|(name, failure)| format!("{name}: {failure}")).collect();
+            let text = format!("{} of {count} studies failed; {}", failed.len(), list.join("; "));
+            Err(match worst.map(|position| failed.swap_remove(position).1) {
+                Some(Failure::Input(_)) => Failure::Input(text),
+                Some(Failure::Machine(_)) => Failure::Machine(text),
+                _ => Failure::NotConverged(text),
+            })
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct RunDocument<'a> {
+    flexura: &'static str,
+    model: &'a str,
+    study: &'static str,
+    status: &'static str,
+    studies: Named<StudyDocument>,
+}
