@@ -89,6 +89,12 @@ conforms!(
     sensor_strip,
     sensor_strip_printed,
     sensor_strip_variants,
+    slide_law,
+    hockling_shaft,
+    greenhill_shaft,
+    michell_ring,
+    lateral_strip,
+    frame_end_moments,
 );
 
 #[test]

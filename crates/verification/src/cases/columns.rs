@@ -47,12 +47,10 @@ fn buckle() -> Result<Vec<Row>, String> {
         ),
     ] {
         let wanted = ends.loads(4);
-        let path = Path::of("push", [wanted[2] + 0.3 * (wanted[3] - wanted[2]), 1.0]);
+        let path = Path::of("push", [1.0, wanted[2] + 0.3 * (wanted[3] - wanted[2])]);
         let followed = File::new(text)?.trace(&[], &path, 1e-10)?;
         let branch = followed.first()?;
-        // The path comes from above.
-        let mut found = crossings(branch);
-        found.reverse();
+        let found = crossings(branch);
         if found.len() != 3 {
             return Err(format!("{name}: {} branch points", found.len()));
         }
@@ -86,7 +84,7 @@ fn bend() -> Result<Vec<Row>, String> {
     let first = 0.25 * PI * PI;
     let mut rows = Vec::new();
     for times in [1.5, 3.0, 6.0] {
-        let path = Path { branches: 1, ..Path::of("push", [times * first, 0.8 * first]) };
+        let path = Path { branches: 1, ..Path::of("push", [0.8 * first, times * first]) };
         let followed = file.trace(&[], &path, 1e-10)?;
         let branches = followed.switched();
         let [branch] = branches[..] else { return Err(format!("{} branches", branches.len())) };

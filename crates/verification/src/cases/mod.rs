@@ -17,10 +17,13 @@ mod joints;
 mod pushed_strip;
 mod robot;
 mod roll_up;
+mod sideways;
+mod slide_law;
 mod spring;
 mod strip;
 mod taper;
 mod tendons;
+mod torsion;
 mod tubes;
 
 use crate::Case;
@@ -50,6 +53,9 @@ pub fn cases() -> Vec<Case> {
         &tubes::CASES,
         &columns::CASES,
         &pushed_strip::CASES,
+        &slide_law::CASES,
+        &torsion::CASES,
+        &sideways::CASES,
     ]
     .concat()
 }

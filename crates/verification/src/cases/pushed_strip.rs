@@ -27,7 +27,7 @@ pub const CASES: [Case; 4] = [
         id: "sensor_strip",
         title: "Table 5.2: a sensor of weight 0.8 or 1.6 π²EI/4L² on the strip, on slopes of 0, 45° and 90° \
                 (`strip_on_slope.toml`): push from which it bows against the weight, deflection and slide there. A fold of \
-                the branch that hangs together with no other, reached by leading the slope from 90° to its own; the \
+                the branch that hangs together with no other, reached by leading the slope from 100° to its own; the \
                 pitchfork at 90°",
         citation: METHOD,
         needed: "1e-7",
@@ -54,7 +54,7 @@ pub const CASES: [Case; 4] = [
     },
 ];
 
-const FILE: &str = include_str!("../../../../models/strip_on_slope.toml");
+pub(super) const FILE: &str = include_str!("../../../../models/strip_on_slope.toml");
 /// Length of the file's strip, m.
 const LENGTH: f64 = 0.1524;
 
@@ -87,14 +87,18 @@ fn pitchfork(branch: &Branch) -> Result<f64, String> {
     }
 }
 
-/// From rest to the push `top`, and on the branch bent against gravity, with the slope led to its own from 90°.
-pub(super) fn against_gravity(
+/// From rest to the push `top`, and on the branch bent against gravity, with the slope led to its own from 100°, where it bows that way by itself.
+pub(super) fn against_gravity<'a>(
     file: &File,
     values: &[(&str, f64)],
     top: f64,
-    more: impl FnOnce(Path<'static>) -> Path<'static>,
+    more: impl FnOnce(Path<'a>) -> Path<'a>,
 ) -> Result<Followed, String> {
-    let path = Path { imperfection: Some(("slope", FRAC_PI_2)), steps: 20, ..Path::of("push", [10.0, top]) };
+    let path = Path {
+        imperfection: Some(("slope", 100f64.to_radians())),
+        steps: 20,
+        ..Path::of("push", [10.0, top])
+    };
     file.trace(values, &more(path), 1e-10)
 }
 
