@@ -60,6 +60,7 @@ conforms!(
     ends_slide_fixed,
     ends_slide_offset_pin,
     deep_arch,
+    deep_arch_fold,
     right_angle_frame,
     parallelogram_small,
     cross_spring_small,
@@ -95,6 +96,10 @@ conforms!(
     michell_ring,
     lateral_strip,
     frame_end_moments,
+    shallow_arch,
+    shallow_arch_sway,
+    bistable_folds,
+    lee_frame,
 );
 
 #[test]

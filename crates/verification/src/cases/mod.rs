@@ -14,11 +14,13 @@ mod four_bar;
 mod frame;
 mod helix_wrench;
 mod joints;
+mod lee_frame;
 mod pushed_strip;
 mod robot;
 mod roll_up;
 mod sideways;
 mod slide_law;
+mod snaps;
 mod spring;
 mod strip;
 mod taper;
@@ -56,6 +58,8 @@ pub fn cases() -> Vec<Case> {
         &slide_law::CASES,
         &torsion::CASES,
         &sideways::CASES,
+        &snaps::CASES,
+        &lee_frame::CASES,
     ]
     .concat()
 }

@@ -1,0 +1,184 @@
+//! Arches and beams that snap through under a given load: folds, and branch points before them.
+
+use crate::file::File;
+use crate::path::{Followed, Path, crossings, events, folds};
+use crate::{Case, Row};
+use flexura_solution::{Branch, PointKind, TracePoint};
+use flexura_testkit::arches::{Arch, Crown};
+use flexura_testkit::snaps::Bistable;
+use std::f64::consts::PI;
+
+const METHOD: &str = "Taylor series along both halves, the crown's height leading (`testkit/src/arches.rs`); the phenomenon: Y. C. \
+                      Fung and A. Kaplan, NACA TN 2840 (1952)";
+
+pub const CASES: [Case; 3] = [
+    Case {
+        id: "shallow_arch",
+        title: "Shallow hinged arch of 30° under a load at its crown, 3 mm thick, R = 100 mm (`shallow_arch.toml`): both folds \
+                of its snap-through, 23.3549 and -0.2256 EI/R²; unstable in one direction between them",
+        citation: METHOD,
+        needed: "1e-6 (we ask 1e-8 of EI/R², R)",
+        run: thick,
+        closed_form: None,
+    },
+    Case {
+        id: "shallow_arch_sway",
+        title: "The same arch, 2 mm thick: it sways to a side at 35.8026 EI/R², before the fold at 36.5065, and stands \
+                upright again past the other fold; the branch that leaves there is its own mirror image",
+        citation: METHOD,
+        needed: "1e-6 (we ask 1e-8 of EI/R², R)",
+        run: thin,
+        closed_form: None,
+    },
+    Case {
+        id: "bistable_folds",
+        title: "`bistable_beam.toml`: greatest and least force of the S-shaped beam, as folds under a given force; and where no \
+                force is needed when the shuttle is led, unstable and stable",
+        citation: "Taylor series along the beam (`testkit/src/snaps.rs`)",
+        needed: "1e-6 (we ask 1e-8 EI/L², L)",
+        run: bistable,
+        closed_form: None,
+    },
+];
+
+const ARCH: &str = include_str!("../../../../models/shallow_arch.toml");
+const HALF: f64 = PI / 12.0;
+
+/// Everything that happens until the crown is down by 2.2 times its height, in units of EI and R.
+fn reference(thickness: f64) -> Result<flexura_testkit::arches::Snap, String> {
+    let arch = Arch {
+        radius: 1.0,
+        half_angle: HALF,
+        bending: 1.0,
+        stretch: (thickness / 0.1).powi(2) / 12.0,
+        hinged: [true; 2],
+    };
+    arch.snap(1.9 * (1.0 - HALF.cos())).map_err(|error| format!("{error:?}"))
+}
+
+fn compare(
+    what: &str,
+    wanted: &[Crown],
+    followed: &Followed,
+    points: &[&TracePoint],
+) -> Result<Vec<Row>, String> {
+    if wanted.len() != points.len() {
+        return Err(format!("{} times {what} instead of {}", points.len(), wanted.len()));
+    }
+    let mut rows = Vec::new();
+    for (crown, point) in wanted.iter().zip(points) {
+        rows.push(Row::absolute(format!("{what}: load, EI/R²"), crown.load, point.parameter, 1e-8));
+        rows.push(Row::absolute("drop, R", crown.drop, followed.number(point, "drop"), 1e-8));
+        rows.push(Row::vanishing("sway, R", followed.number(point, "sway"), 1e-8));
+    }
+    Ok(rows)
+}
+
+/// The counts of unstable directions along a branch, each once.
+pub(super) fn counts(branch: &Branch) -> Vec<Option<usize>> {
+    let is_regular = |point: &&TracePoint| matches!(point.kind, PointKind::Regular | PointKind::End);
+    let mut counts: Vec<_> =
+        branch.points.iter().filter(is_regular).map(|point| point.unstable_directions).collect();
+    counts.dedup();
+    counts
+}
+
+/// A row that holds if the counts are these.
+pub(super) fn counted(branch: &Branch, wanted: &[usize]) -> Row {
+    let same = counts(branch) == wanted.iter().map(|count| Some(*count)).collect::<Vec<_>>();
+    let name = format!("unstable directions along the path are not {wanted:?}");
+    Row::vanishing(name, if same { 0.0 } else { 1.0 }, 0.0)
+}
+
+fn thick() -> Result<Vec<Row>, String> {
+    let path = Path { start: Some(0.0), ..Path::of("load", [-5.0, 40.0]) };
+    let followed = File::new(ARCH)?.trace(&[], &path, 1e-10)?;
+    let branch = followed.first()?;
+    let mut rows = compare("fold", &reference(3e-3)?.folds, &followed, &folds(branch))?;
+    rows.push(Row::vanishing("branch points", crossings(branch).len() as f64, 0.0));
+    rows.push(counted(branch, &[0, 1, 0]));
+    Ok(rows)
+}
+
+fn thin() -> Result<Vec<Row>, String> {
+    let file = File::new(ARCH)?;
+    let values = [("thickness", 2e-3)];
+    let path = Path { start: Some(0.0), ..Path::of("load", [-30.0, 60.0]) };
+    let followed = file.trace(&values, &path, 1e-10)?;
+    let branch = followed.first()?;
+    let wanted = reference(2e-3)?;
+    let mut rows = compare("fold", &wanted.folds, &followed, &folds(branch))?;
+    rows.extend(compare("branch point", &wanted.branch_points, &followed, &crossings(branch))?);
+    rows.push(counted(branch, &[0, 1, 2, 1, 0]));
+    let path = Path { branches: 1, ..Path::of("load", [10.0, 38.0]) };
+    let followed = file.trace(&values, &path, 1e-10)?;
+    let branches = followed.switched();
+    let [swaying] = branches[..] else { return Err(format!("{} branches", branches.len())) };
+    let (Some(first), Some(last)) = (swaying.points.first(), swaying.points.last()) else {
+        return Err("no points".to_string());
+    };
+    for name in ["sway", "turning"] {
+        let [a, b] = [first, last].map(|end| followed.number(end, name));
+        rows.push(Row::absolute(format!("mirrored {name} at the branch's ends"), a, -b, 1e-8));
+    }
+    rows.push(Row::absolute(
+        "drop at both",
+        followed.number(first, "drop"),
+        followed.number(last, "drop"),
+        1e-8,
+    ));
+    Ok(rows)
+}
+
+fn bistable() -> Result<Vec<Row>, String> {
+    let text = include_str!("../../../../models/bistable_beam.toml");
+    let (length, slope) = (50e-3, 5f64.to_radians());
+    let beam = Bistable::polypropylene();
+    let unit = beam.bending / (length * length);
+    let wanted = beam.snap(7.2e-3).map_err(|error| format!("{error:?}"))?;
+    let mut rows = Vec::new();
+    // Where no force is needed, the shuttle being led.
+    let file = File::new(text)?;
+    let path = Path { events: &[("force", 0.0)], ..Path::of("travel", [0.0, 7.2e-3]) };
+    let led = file.trace(&[], &path, 1e-10)?;
+    // Rest is one, too.
+    let zeros: Vec<_> =
+        events(led.first()?, 0).into_iter().filter(|point| point.parameter > 1e-6 * length).collect();
+    if zeros.len() != wanted.zeros.len() {
+        return Err(format!("{} places without force", zeros.len()));
+    }
+    for (zero, point) in wanted.zeros.iter().zip(zeros) {
+        rows.push(Row::scaled("travel without force", zero.travel, point.parameter, length, 1e-8));
+    }
+    // The same beam under a given force.
+    let given = text
+        .replace("coordinate = \"travel\"", "effort = \"force\"")
+        .replace("travel = \"2 mm\"", "force = \"0 N\"")
+        .replace("force = \"joint.guide.effort\"", "travel = \"joint.guide.coordinate\"");
+    let path = Path { start: Some(0.0), folds: Some(2), ..Path::of("force", [-0.1, 0.4]) };
+    let followed = File::new(&given)?.trace(&[], &path, 1e-10)?;
+    let found = folds(followed.first()?);
+    if found.len() != wanted.folds.len() {
+        return Err(format!("{} folds", found.len()));
+    }
+    for (fold, point) in wanted.folds.iter().zip(found) {
+        rows.push(Row::scaled("fold: force", fold.force, point.parameter, unit, 1e-8));
+        rows.push(Row::scaled("travel", fold.travel, followed.number(point, "travel"), length, 1e-8));
+    }
+    // The bowed beam comes by halfway, where it is the mirror image of itself and needs no force.
+    let path = Path { branches: 1, ..Path::of("force", [0.0, 0.4]) };
+    let followed = File::new(&given)?.trace(&[], &path, 1e-10)?;
+    let branches = followed.switched();
+    let [bowed] = branches[..] else { return Err(format!("{} branches", branches.len())) };
+    for end in [bowed.points.first(), bowed.points.last()].into_iter().flatten() {
+        let travel = followed.number(end, "travel");
+        rows.push(Row::scaled(
+            "travel of the bowed beam without force",
+            length * slope.sin(),
+            travel,
+            length,
+            1e-8,
+        ));
+    }
+    Ok(rows)
+}
