@@ -161,11 +161,6 @@ impl Followed {
             _ => f64::NAN,
         }
     }
-
-    /// The same at a place between two points, from their four neighbours.
-    pub fn outputs(&self, point: &TracePoint, names: &[&str]) -> Vec<f64> {
-        names.iter().map(|name| self.number(point, name)).collect()
-    }
 }
 
 /// The points of a kind.

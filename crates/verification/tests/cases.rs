@@ -100,6 +100,10 @@ conforms!(
     shallow_arch_sway,
     bistable_folds,
     lee_frame,
+    unfolded_pitchfork,
+    fold_curves,
+    crossing_slope,
+    undecided_stability,
 );
 
 #[test]

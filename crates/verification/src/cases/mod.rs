@@ -27,6 +27,8 @@ mod taper;
 mod tendons;
 mod torsion;
 mod tubes;
+mod unfolding;
+mod verdicts;
 
 use crate::Case;
 
@@ -60,6 +62,8 @@ pub fn cases() -> Vec<Case> {
         &sideways::CASES,
         &snaps::CASES,
         &lee_frame::CASES,
+        &unfolding::CASES,
+        &verdicts::CASES,
     ]
     .concat()
 }
