@@ -51,5 +51,5 @@ pub use tangents::CENTRAL;
 pub use accuracy::Finish;
 pub use diagnose::Census;
 pub use error::ProblemError;
-pub use stability::{Stability, Variation};
+pub use stability::{Rate, Stability, Variation};
 pub use system::{Counts, Equilibrium};

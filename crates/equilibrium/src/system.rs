@@ -339,7 +339,7 @@ impl Equilibrium {
     }
 
     /// Runs of the state that are plain numbers: (state, unknown, count).
-    fn number_slots(&self) -> impl Iterator<Item = (usize, usize, usize)> {
+    pub(crate) fn number_slots(&self) -> impl Iterator<Item = (usize, usize, usize)> {
         let wrenches = self
             .layout
             .spans

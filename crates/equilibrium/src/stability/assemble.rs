@@ -71,7 +71,7 @@ fn identity(at: usize) -> Motions {
 impl Equilibrium {
     /// Negative directions of the second variation under the constraints.
     pub(super) fn unstable_directions(&mut self) -> Result<usize, Breakdown> {
-        let (multipliers, ..) = self.second_variation(1)?;
+        let (multipliers, ..) = self.second_variation(1, None)?;
         let inertia = self.second.symmetric.factorise()?;
         if inertia.zero > 0 {
             return Err(Breakdown::Singular);
@@ -84,11 +84,12 @@ impl Equilibrium {
     pub(super) fn second_variation(
         &mut self,
         parts: usize,
+        kept: Option<&[Vec<[V; 2]>]>,
     ) -> Result<(usize, Vec<Cut>, Vec<Numbers>), Breakdown> {
         let mut end = SegmentEnd::new();
         let mut cuts = Vec::with_capacity(self.lowered.spans.len());
         for span in 0..self.lowered.spans.len() {
-            cuts.push(self.short_stretches(span, parts, &mut end)?);
+            cuts.push(self.short_stretches(span, parts, kept.map(|kept| &kept[span][..]), &mut end)?);
         }
         let mut total = self.layout.interface;
         let mut numbers = Vec::with_capacity(cuts.len());

@@ -44,11 +44,13 @@ pub(super) struct Cut {
 }
 
 impl Equilibrium {
-    /// Cuts a span, each smooth stretch of it into `parts` at least.
+    /// Cuts a span, each smooth stretch of it into `parts` at least. With `kept`, changes of the section moments at both ends of every
+    /// stretch, the rest curvature gives way to these, so that the shape stays as it is.
     pub(super) fn short_stretches(
         &self,
         span: usize,
         parts: usize,
+        kept: Option<&[[Vector3<f64>; 2]]>,
         end: &mut SegmentEnd,
     ) -> Result<Cut, Breakdown> {
         let description = &self.lowered.spans[span];
@@ -87,13 +89,12 @@ impl Equilibrium {
                     // Equal parts of what is left, so that no sliver remains.
                     let next =
                         if left <= 1.000_001 * width { last } else { s + left / (left / width).ceil() };
-                    let part = Stretch::new(
-                        law,
-                        description,
-                        [s, next],
-                        level.steps(law, description, [s, next], ACCURACY),
-                        Vec::new(),
-                    );
+                    let steps = level.steps(law, description, [s, next], ACCURACY);
+                    let mut part = Stretch::new(law, description, [s, next], steps, Vec::new());
+                    if let Some(kept) = kept {
+                        let change = kept.get(forms.len()).ok_or(Breakdown::Singular)?;
+                        part.piece.straighten(&change.map(Into::into));
+                    }
                     let form = Form::new(&part, law.soft(), (self.load, &pulls), &here, end).filter(|form| {
                         let met = Level {
                             force: norm(&here.force).max(norm(&form.end.force)),

@@ -26,7 +26,7 @@ mod undecided;
 mod variation;
 
 pub(crate) use assemble::Second;
-pub use variation::Variation;
+pub use variation::{Rate, Variation};
 
 use crate::system::Equilibrium;
 use flexura_nonlinear::Breakdown;

@@ -18,7 +18,7 @@
 //! way: there a compliance of 10⁻⁸ of the softest is put in its place.
 
 use crate::mesh::Stretch;
-use crate::shooting::{Acting, Plain, Pull, SegmentEnd, carry_columns};
+use crate::shooting::{Acting, Plain, Pull, SegmentEnd, carry_columns, pose_of};
 use flexura_spatial::{Matrix3, Matrix6, Vector3};
 
 type V = Vector3<f64>;
@@ -31,12 +31,18 @@ pub(super) struct Form {
     pub bb: Matrix6<f64>,
     /// The moment at A.
     pub start_moment: [f64; 3],
+    /// The moments at both ends, in the section's axes.
+    pub section_moments: [V; 2],
     /// The state at B, before what jumps there.
     pub end: Plain,
 }
 
 /// Compliance, as a part of the softest, of what has none.
 const STIFF: f64 = 1e-8;
+
+fn section_moment(state: &Plain) -> V {
+    pose_of(state).rotation.inverse() * V::from(state.moment)
+}
 
 fn half_hat(v: &[f64; 3]) -> Matrix3<f64> {
     Matrix3::new(0.0, -v[2], v[1], v[2], 0.0, -v[0], -v[1], v[0], 0.0) * 0.5
@@ -128,6 +134,7 @@ impl Form {
             ba: r - turned,
             bb: stiffness,
             start_moment: start.moment,
+            section_moments: [section_moment(start), section_moment(&end.state)],
             end: end.state,
         })
     }

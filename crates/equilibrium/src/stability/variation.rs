@@ -8,6 +8,12 @@ use flexura_nonlinear::{Breakdown, Symmetric, System};
 use flexura_spatial::{Twist, Vector3};
 use nalgebra::Vector6;
 
+/// How section moments change along beams, per unit of what changes them.
+pub struct Rate {
+    /// For each span, for each of its stretches, at both ends.
+    moments: Vec<Vec<[Vector3<f64>; 2]>>,
+}
+
 /// The second variation at one state.
 pub struct Variation {
     matrix: Symmetric,
@@ -26,6 +32,17 @@ impl Variation {
     pub fn fits(&self, other: &Self) -> bool {
         self.size() == other.size()
             && self.cuts.iter().zip(&other.cuts).all(|(a, b)| a.forms.len() == b.forms.len())
+    }
+
+    /// The rate between two states `width` apart on either side.
+    pub fn rate(minus: &Self, plus: &Self, width: f64) -> Rate {
+        let spans = minus.cuts.iter().zip(&plus.cuts).map(|(minus, plus)| {
+            let forms = minus.forms.iter().zip(&plus.forms);
+            forms
+                .map(|(a, b)| [0, 1].map(|i| (b.section_moments[i] - a.section_moments[i]) / (2.0 * width)))
+                .collect()
+        });
+        Rate { moments: spans.collect() }
     }
 
     /// Adds `factor` times the matrix times `x`.
@@ -54,12 +71,42 @@ impl Equilibrium {
     /// # Errors
     /// A number overflows.
     pub fn variation(&mut self, parts: usize) -> Result<Variation, Breakdown> {
+        self.variation_with(parts, None)
+    }
+
+    /// The same with wrenches that have changed while the shape stays: `rate` times `by`. The state holds the changed wrenches.
+    ///
+    /// # Errors
+    /// A number overflows.
+    pub fn stressed_variation(&mut self, parts: usize, rate: &Rate, by: f64) -> Result<Variation, Breakdown> {
+        let kept: Vec<Vec<[Vector3<f64>; 2]>> = rate
+            .moments
+            .iter()
+            .map(|span| span.iter().map(|ends| ends.map(|moment| moment * by)).collect())
+            .collect();
+        self.variation_with(parts, Some(&kept))
+    }
+
+    fn variation_with(
+        &mut self,
+        parts: usize,
+        kept: Option<&[Vec<[Vector3<f64>; 2]>]>,
+    ) -> Result<Variation, Breakdown> {
         // Levels of force, by which beams are cut, are those of the last evaluation.
         self.residual()?;
-        let (_, cuts, numbers) = self.second_variation(parts)?;
+        let (_, cuts, numbers) = self.second_variation(parts, kept)?;
         let total = self.layout.interface + numbers.iter().map(Numbers::count).sum::<usize>();
         let (_, columns, ..) = self.targets(&numbers, total);
         Ok(Variation { matrix: self.second.symmetric.clone(), cuts, numbers, columns })
+    }
+
+    /// A step of the state without its motions: what is left is the change of all wrenches and multipliers.
+    pub fn wrench_part(&self, step: &[f64]) -> Vec<f64> {
+        let mut part = vec![0.0; step.len()];
+        for (_, unknown, count) in self.number_slots() {
+            part[unknown..unknown + count].copy_from_slice(&step[unknown..unknown + count]);
+        }
+        part
     }
 
     /// Why the mechanism has no second variation; None where it has one.

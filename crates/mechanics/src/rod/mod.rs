@@ -4,6 +4,7 @@
 pub mod balance;
 pub mod constitutive;
 pub mod propagate;
+mod straighten;
 pub mod tendon;
 pub mod tubes;
 
