@@ -1,9 +1,11 @@
 //! Euler's columns: the loads at which they buckle, and how many directions are unstable between them.
 
 use crate::file::File;
+use crate::measure::worst;
 use crate::path::{Path, crossings};
 use crate::{Case, Row};
-use flexura_solution::{Crossing, PointKind};
+use flexura_solution::{Crossing, PointKind, TracePoint};
+use flexura_spatial::Vector3;
 use flexura_testkit::columns::Ends;
 use flexura_testkit::elastica::Elastica;
 use std::f64::consts::PI;
@@ -13,10 +15,10 @@ pub const CASES: [Case; 2] = [
         id: "euler_columns",
         title: "Euler columns clamped-free, hinged-hinged, clamped-hinged, clamped-clamped (`euler_*.toml`): the first three \
                 buckling loads, met on the straight column's path; all are supercritical pitchforks; unstable directions \
-                at every point of the path",
+                at every point of the path; the hinged column's shapes, sines",
         citation: "π²/4, π², 20.1907, 4π² EI/L² and the next two of each: L. Euler, *De curvis elasticis* (1744); S. P. Timoshenko \
                    and J. M. Gere, *Theory of Elastic Stability*, 2nd ed. (1961), §§2.1-2.4",
-        needed: "1e-8 of the loads; every count right",
+        needed: "1e-8 of the loads, 1e-7 of the shapes; every count right",
         run: buckle,
         closed_form: None,
     },
@@ -75,8 +77,28 @@ fn buckle() -> Result<Vec<Row>, String> {
         ));
         let most = regular.iter().filter_map(|point| point.unstable_directions).max().unwrap_or_default();
         rows.push(Row::absolute(format!("most unstable directions, {name}"), 3.0, most as f64, 0.0));
+        if ends == Ends::PinnedPinned {
+            for (i, point) in found.iter().enumerate() {
+                rows.push(sine(point, i + 1)?);
+            }
+        }
     }
     Ok(rows)
+}
+
+/// How far the direction in which the hinged column gives way is from a sine with so many half waves.
+fn sine(point: &TracePoint, waves: usize) -> Result<Row, String> {
+    let (Some(direction), Some(state)) = (point.directions.first(), &point.solution) else {
+        return Err("no direction is reported".to_string());
+    };
+    let beam = &state.beams[0];
+    let wave = |s: f64| (waves as f64 * PI * s / beam.length).sin();
+    let pairs =
+        || beam.samples.iter().zip(&direction.beams[0]).map(|(sample, twist)| (wave(sample.s), twist.linear));
+    let size = pairs().map(|(wave, shift)| wave * shift.z).sum::<f64>()
+        / pairs().map(|(wave, _)| wave * wave).sum::<f64>();
+    let apart = worst(pairs().map(|(wave, shift)| (shift - Vector3::z() * (size * wave)).norm()));
+    Ok(Row::vanishing(format!("shape {waves}, hinged-hinged, from a sine"), apart / size.abs(), 1e-7))
 }
 
 fn bend() -> Result<Vec<Row>, String> {

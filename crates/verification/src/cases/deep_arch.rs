@@ -25,7 +25,7 @@ pub const CASES: [Case; 2] = [
                 as a fold, one direction unstable past it; led down, the same load is met there",
         citation: "Taylor series along both halves, the crown's height leading (`testkit/src/arches.rs`). 8.973464, as above, \
                    has four digits right, 8.97 and 1.14 are what DaDeppo and Schmidt print",
-        needed: "1e-6 (we ask 1e-8 EI/R², R)",
+        needed: "1e-8 of EI/R² and R",
         run: fold,
         closed_form: None,
     },

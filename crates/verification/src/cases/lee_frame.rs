@@ -12,7 +12,7 @@ pub const CASES: [Case; 1] = [Case {
             point under the load led down instead, both folds of its way, 61.003 and 50.746",
     citation: "Taylor series along column and beam (`testkit/src/snaps.rs`); S. L. Lee, F. S. Manuel and E. C. Rossow, \
                *J. Eng. Mech. Div. ASCE* 94 (1968) EM2, 521",
-    needed: "the path passes both folds (we ask 1e-8 of EI/L², L, 1)",
+    needed: "1e-8 of EI/L², L, 1",
     run,
     closed_form: None,
 }];

@@ -17,7 +17,7 @@ pub const CASES: [Case; 3] = [
         title: "Shallow hinged arch of 30° under a load at its crown, 3 mm thick, R = 100 mm (`shallow_arch.toml`): both folds \
                 of its snap-through, 23.3549 and -0.2256 EI/R²; unstable in one direction between them",
         citation: METHOD,
-        needed: "1e-6 (we ask 1e-8 of EI/R², R)",
+        needed: "1e-8 of EI/R² and R",
         run: thick,
         closed_form: None,
     },
@@ -26,7 +26,7 @@ pub const CASES: [Case; 3] = [
         title: "The same arch, 2 mm thick: it sways to a side at 35.8026 EI/R², before the fold at 36.5065, and stands \
                 upright again past the other fold; the branch that leaves there is its own mirror image",
         citation: METHOD,
-        needed: "1e-6 (we ask 1e-8 of EI/R², R)",
+        needed: "1e-8 of EI/R² and R",
         run: thin,
         closed_form: None,
     },
@@ -35,7 +35,7 @@ pub const CASES: [Case; 3] = [
         title: "`bistable_beam.toml`: greatest and least force of the S-shaped beam, as folds under a given force; and where no \
                 force is needed when the shuttle is led, unstable and stable",
         citation: "Taylor series along the beam (`testkit/src/snaps.rs`)",
-        needed: "1e-6 (we ask 1e-8 EI/L², L)",
+        needed: "1e-8 of EI/L² and L",
         run: bistable,
         closed_form: None,
     },

@@ -35,7 +35,7 @@ pub const CASES: [Case; 3] = [
         title: "Slope from which on the sensor of weight 1.6 needs less push than that of 0.8: folds of both followed from 65° to \
                 80°, where they cross. Printed is 45°, where the heavier one needs more",
         citation: "72.748°, Taylor series along both halves (`testkit/src/slope.rs`); 45°: the thesis",
-        needed: "1e-3 degrees (we ask 1e-5)",
+        needed: "1e-5 degrees",
         run: crossing,
         closed_form: None,
     },
