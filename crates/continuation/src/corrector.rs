@@ -41,6 +41,15 @@ pub(crate) struct Limits {
     pub reach: f64,
 }
 
+/// A correction that arrived.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Corrected {
+    /// Size of the first correction.
+    pub first: f64,
+    /// Is the system's tangent another one than before?
+    pub renewed: bool,
+}
+
 const MOST: usize = 12;
 /// Contraction from which the tangent is renewed, and the worst that is accepted of a new one.
 const SLOW: f64 = 0.2;
@@ -49,16 +58,17 @@ const WORST: f64 = 0.5;
 const ROUND_OFF: f64 = 1e-9;
 
 /// Brings the present state, which was predicted, to the path in the plane across `across`. `along` is v at a point near
-/// by, if the last tangent is of that point; it is renewed with the tangent. Returns the size of the first correction.
+/// by, if the last tangent is of that point; it is renewed with the tangent.
 pub(crate) fn correct<P: Problem>(
     problem: &mut P,
     across: &Tangent,
     along: Option<&[f64]>,
     limits: &Limits,
-) -> Result<f64, Miss> {
+) -> Result<Corrected, Miss> {
     let n = problem.system().unknowns();
     let mut step = vec![0.0; n];
     let mut fresh = along.is_none();
+    let mut renewed = fresh;
     let mut v = match along {
         Some(along) => {
             problem.system().residual()?;
@@ -89,12 +99,12 @@ pub(crate) fn correct<P: Problem>(
         parameters[0] += dp;
         problem.set_parameters(parameters)?;
         if size <= limits.tolerance || (size <= ROUND_OFF && slow) {
-            return Ok(start);
+            return Ok(Corrected { first: start, renewed });
         }
         before = size;
         if slow && !fresh {
             v = linearise(problem, &mut step)?;
-            fresh = true;
+            (fresh, renewed) = (true, true);
             before = f64::INFINITY;
         } else {
             problem.system().residual()?;

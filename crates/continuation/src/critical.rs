@@ -27,8 +27,10 @@ pub struct CriticalWalker {
     largest: f64,
 }
 
-const STATE: f64 = 1e-3;
-const PARAMETER: f64 = 1e-3;
+const STATE: f64 = 2e-4;
+const PARAMETER: f64 = 1e-4;
+/// A difference that is tried where the usual one reaches too far.
+const SHORTER: f64 = 0.05;
 const MOST: usize = 8;
 const ENOUGH: f64 = 1e-8;
 const SHORTEST: f64 = 1e-6;
@@ -183,13 +185,20 @@ fn derivatives<P: Problem>(
     let mut rows = [[0.0; 3]; 2];
     for k in 0..3 {
         let (width, unit) = if k == 0 { (STATE / scale, STATE) } else { (PARAMETER, PARAMETER) };
-        let mut way = [0.0; 3];
-        way[k] = width;
-        let up = conditions(&surface.at(problem, value, way)?, fold);
-        way[k] = -width;
-        let down = conditions(&surface.at(problem, value, way)?, fold);
+        let mut sides = |part: f64| -> Result<[[f64; 2]; 2], Miss> {
+            let mut way = [0.0; 3];
+            way[k] = part * width;
+            let up = conditions(&surface.at(problem, value, way)?, fold);
+            way[k] = -part * width;
+            Ok([up, conditions(&surface.at(problem, value, way)?, fold)])
+        };
+        // Near the end of what exists a shorter difference may do.
+        let (part, [up, down]) = match sides(1.0) {
+            Ok(found) => (1.0, found),
+            Err(_) => (SHORTER, sides(SHORTER)?),
+        };
         for i in 0..2 {
-            rows[i][k] = (up[i] - down[i]) / (2.0 * unit);
+            rows[i][k] = (up[i] - down[i]) / (2.0 * part * unit);
         }
     }
     value.point.restore(problem)?;

@@ -63,12 +63,12 @@ const MOST: usize = 12;
 /// Size of a correction from which the next is below round-off.
 const ENOUGH: f64 = 1e-8;
 /// How far differences reach: the size of the change of the state, and of the parameter.
-const STATE: f64 = 1e-3;
-const PARAMETER: f64 = 1e-3;
+const STATE: f64 = 2e-4;
+const PARAMETER: f64 = 2e-4;
 /// μ, as a part of what the step changes it by, that counts as nothing.
 const NOTHING: f64 = 1e-6;
-/// Curvature of the other branch's parameter, as a part of the mixed derivative, that counts as none.
-const SYMMETRIC: f64 = 1e-5;
+/// Rate of the parameter beside that of the state, along the other branch, that counts as none.
+const SYMMETRIC: f64 = 1e-3;
 
 /// First and second derivatives of μ, and the third along ξ.
 pub(crate) struct Shape {
@@ -85,16 +85,32 @@ pub(crate) fn widths<P: Problem>(problem: &mut P, value: &Value) -> [f64; 2] {
 }
 
 impl Surface {
-    /// Derivatives at a point of the surface, by differences of the first ones.
+    /// Derivatives at a point of the surface, by differences of the first ones. The last time they are extrapolated: what vanishes by
+    /// symmetry must come out as nothing.
     pub(crate) fn shape<P: Problem>(
         &self,
         problem: &mut P,
         value: Value,
         along_p: bool,
+        is_last: bool,
     ) -> Result<Shape, Miss> {
         let [dx, dp] = widths(problem, &value);
-        let up = self.at(problem, &value, [dx, 0.0, 0.0])?;
-        let down = self.at(problem, &value, [-dx, 0.0, 0.0])?;
+        let mut sides = |width: f64| -> Result<[f64; 3], Miss> {
+            let up = self.at(problem, &value, [width, 0.0, 0.0])?;
+            let down = self.at(problem, &value, [-width, 0.0, 0.0])?;
+            Ok([
+                (up.slope[0] - down.slope[0]) / (2.0 * width),
+                (up.slope[1] - down.slope[1]) / (2.0 * width),
+                (up.slope[0] - 2.0 * value.slope[0] + down.slope[0]) / (width * width),
+            ])
+        };
+        let mut along = sides(dx)?;
+        if is_last {
+            let wide = sides(2.0 * dx)?;
+            for i in 0..2 {
+                along[i] += (along[i] - wide[i]) / 3.0;
+            }
+        }
         let mut p_p = 0.0;
         if along_p {
             let more = self.at(problem, &value, [0.0, dp, 0.0])?;
@@ -102,13 +118,7 @@ impl Surface {
             p_p = (more.slope[1] - less.slope[1]) / (2.0 * dp);
         }
         value.point.restore(problem)?;
-        Ok(Shape {
-            xi_xi: (up.slope[0] - down.slope[0]) / (2.0 * dx),
-            xi_p: (up.slope[1] - down.slope[1]) / (2.0 * dx),
-            xi_xi_xi: (up.slope[0] - 2.0 * value.slope[0] + down.slope[0]) / (dx * dx),
-            p_p,
-            value,
-        })
+        Ok(Shape { xi_xi: along[0], xi_p: along[1], xi_xi_xi: along[2], p_p, value })
     }
 }
 
@@ -152,7 +162,7 @@ fn solve<P: Problem>(
 ) -> Result<Option<Shape>, Miss> {
     let mut last = false;
     for _ in 0..MOST {
-        let shape = surface.shape(problem, value, !fold)?;
+        let shape = surface.shape(problem, value, !fold, last)?;
         if last {
             return Ok(Some(shape));
         }
@@ -283,8 +293,11 @@ fn finish<P: Problem>(
     let nearness = |t: &Tangent| t.product(system, &bracket.tangent.step, bracket.tangent.parameter).abs();
     let own = if nearness(&tangents[0]) >= nearness(&tangents[1]) { 0 } else { 1 };
     tangents.swap_remove(own);
-    let other = directions[1 - own];
-    let crossing = if other[1].abs() <= SYMMETRIC * other[0].abs() {
+    let turns = |d: &[f64; 2]| d[1].abs() <= SYMMETRIC * d[0].abs() * system.size(&value.along[0]);
+    let crossing = if turns(&directions[own]) {
+        // Met along the side branch: what is stable on the other is not known here.
+        Crossing::Pitchfork
+    } else if turns(&directions[1 - own]) {
         // p = p* - μ_ξξξ/(6 μ_ξp) ξ² on the other branch.
         let bends = -shape.xi_xi_xi / shape.xi_p;
         match bracket.index {

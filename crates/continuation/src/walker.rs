@@ -162,12 +162,14 @@ impl Walker {
         for _ in 0..14 {
             match first_point(problem, &options, from, &tangent, width) {
                 Ok(here) => {
+                    let start =
+                        Place { point: from.clone(), arc: 0.0, tangent: tangent.clone(), ..here.clone() };
                     return Ok(Self {
                         options,
                         here,
                         before: None,
                         width,
-                        last: None,
+                        last: Some((start, width)),
                         is_tangent_here: true,
                         work: WalkWork { taken: 1, refused: 0 },
                     });
@@ -310,6 +312,30 @@ impl Walker {
         })
     }
 
+    /// Goes to the point of the last step at `part` of its length, with as little work as it takes to be there.
+    ///
+    /// # Errors
+    /// There was no step, or no point is found there.
+    pub fn glance<P: Problem>(&mut self, problem: &mut P, part: f64) -> Result<(), Stall> {
+        let Some((left, _)) = &self.last else { return Err(Stall::Short) };
+        if !self.is_tangent_here {
+            self.here.point.restore(problem).map_err(stall)?;
+            problem.system().linearise().map_err(|b| stall(b.into()))?;
+            self.is_tangent_here = true;
+        }
+        let whole = between(problem, &left.point, &self.here.point);
+        left.point.restore(problem).map_err(stall)?;
+        let step: Vec<f64> = whole.step.iter().map(|v| part * v).collect();
+        let reach = whole.size(problem.system());
+        problem.system().retract(&step);
+        let parameters = left.point.parameters;
+        problem.set_parameters([parameters[0] + part * whole.parameter, parameters[1]]).map_err(stall)?;
+        let limits = Limits { tolerance: self.options.tolerance, farthest: 0.5, reach };
+        let found = correct(problem, &self.here.tangent, Some(&self.here.slope), &limits);
+        self.is_tangent_here = found.as_ref().is_ok_and(|found| !found.renewed);
+        found.map(|_| ()).map_err(|_| Stall::Short)
+    }
+
     /// The point of the last step at which the parameter has a value that lies between its ends.
     ///
     /// # Errors
@@ -404,7 +430,7 @@ impl Walker {
         if cosine < self.options.least_cosine {
             return Err((Miss::NotContracting, 0.4));
         }
-        let by_way = (self.options.aim * reach / first.max(1e-12)).sqrt();
+        let by_way = (self.options.aim * reach / first.first.max(1e-12)).sqrt();
         let turned = cosine.min(1.0).acos();
         let by_turn = self.options.aimed_cosine.acos() / turned.max(1e-6);
         let growth = by_way.min(by_turn).clamp(0.5, 2.0);
@@ -444,6 +470,8 @@ impl Walker {
             (false, false, None | Some(0)) => return Ok(Vec::new()),
             (true, true, None | Some(1)) => locate(problem, &bracket(), true),
             (true, false, None | Some(1)) => locate(problem, &bracket(), false),
+            // The side branch of a pitchfork turns back where it meets the other.
+            (false, true, None | Some(0)) => locate(problem, &bracket(), false),
             (_, _, Some(count)) if depth == 0 && count > 1 => {
                 let tolerance = self.options.tolerance;
                 let length = to.arc - from.arc;
@@ -481,7 +509,7 @@ impl Walker {
         let parameters = from.point.parameters;
         problem.set_parameters([parameters[0] + part * whole.parameter, parameters[1]])?;
         let limits = Limits { tolerance: self.options.tolerance, farthest: 0.5, reach };
-        correct(problem, if part < 0.5 { &from.tangent } else { &to.tangent }, None, &limits)?;
+        correct(problem, &to.tangent, None, &limits)?;
         problem.system().linearise()?;
         let (slope, mut tangent) = direction_here(problem)?;
         if tangent.product(problem.system(), &whole.step, whole.parameter) < 0.0 {

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use flexura_model::{
-    At, Attachment, Curve, Drive, JointKind, Model, Mount, Profile, SectionFrame, Shape, SpringLaw,
+    At, Attachment, Curve, Drive, JointKind, Model, Mount, Profile, Quantity, SectionFrame, Shape, SpringLaw,
 };
 use flexura_modelfile::{Document, reference_markdown, schema};
 use proptest::prelude::*;
@@ -226,7 +226,10 @@ fn outputs_become_formulas_over_probes() {
     assert_eq!([0, 1, 2].map(|k| w.formulas[k].evaluate(&[7.0, 8.0, 9.0])), [7.0, 8.0, 9.0]);
     assert_eq!(output("s").unit, "");
     close(output("s").formulas[0].evaluate(&[1.1e9]), 1.0);
-    close(output("f").formulas[0].evaluate(&[6.0]), 2.0);
+    // A parameter stays open, so that outputs follow it along a path.
+    let f = output("f");
+    assert_eq!(f.probes.iter().filter(|probe| probe.quantity == Quantity::Parameter).count(), 1);
+    close(f.formulas[0].evaluate(&[6.0, 3.0]), 2.0);
     assert_eq!(output("q").probes[0].component, 2);
     assert_eq!((output("e").unit.as_str(), output("e").probes.len()), ("N*m", 3));
     assert_eq!(output("k").unit, "1/m");

@@ -71,7 +71,9 @@ pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<M
     }
     model.unknowns = unknown::unknowns(context, &model);
     model.targets = result::targets(context, named_entries(context, "target"), &model, &outputs);
-    model.outputs = outputs.iter().map(|built| built.output.clone()).collect();
+    // With their parameters open, so that models which differ by a parameter alone have the same outputs.
+    let live = result::live_outputs(context, &model, &outputs);
+    model.outputs = live.into_iter().map(|built| built.output).collect();
     if beside.is_none() {
         model.studies = study::studies(context, &model, &outputs);
     }

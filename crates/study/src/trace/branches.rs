@@ -1,12 +1,13 @@
 //! The branches of a trace: the one from rest, those that it meets, and those that are searched for.
 
-use super::leg::{FINER, Follower, Leg, Met};
+use super::leg::{FINER, First, Follower, Leg, Met};
 use super::problem::{Axis, Traced};
 use super::record::Reader;
 use super::{TraceProgress, critical, search};
 use crate::{Family, Options, Prepared, ProblemError};
 use flexura_continuation::{Problem, WalkOptions, Walker};
 use flexura_model::{Model, Stop, TraceStudy};
+use flexura_nonlinear::{NewtonOptions, System, converge};
 use flexura_solution::{Branch, BranchEnd, BranchOrigin, Crossing, PointKind, Status, Trace, TraceWork};
 use std::collections::VecDeque;
 
@@ -149,8 +150,7 @@ pub(crate) fn from_here(
 ) {
     follower.branch = collection.branches.len();
     let options = walk_options(follower);
-    traced.refine(follower.tolerance * FINER);
-    traced.problem().weigh();
+    mesh(traced, follower.tolerance);
     let snapshot = traced.snapshot();
     let at = traced.parameters()[0];
     let mut legs: [Option<Leg>; 2] = [None, None];
@@ -162,7 +162,7 @@ pub(crate) fn from_here(
         traced.go_back(&snapshot);
         let walker = Walker::start(traced, options, direction);
         *leg = Some(match walker {
-            Ok(mut walker) => follower.follow(traced, &mut walker, Some(PointKind::End)),
+            Ok(mut walker) => follower.follow(traced, &mut walker, First::Start),
             Err(_) => Leg {
                 points: Vec::new(),
                 met: Vec::new(),
@@ -190,6 +190,29 @@ pub(crate) fn from_here(
         (None, None) => {}
     }
 }
+
+/// Makes a mesh on which the present equilibrium has the wanted accuracy; the parameters stay.
+fn mesh(traced: &mut Traced<'_>, tolerance: f64) {
+    let mut accuracy = tolerance * FINER;
+    for _ in 0..MESHES {
+        traced.refine(accuracy);
+        traced.problem().weigh();
+        let newton = NewtonOptions { tolerance: 1e-11, iterations: 20, nearest: f64::INFINITY };
+        converge(traced.problem(), &newton);
+        let mut step = vec![0.0; traced.problem().unknowns()];
+        if traced.problem().linearise().is_err() || traced.problem().mesh_correction(&mut step).is_err() {
+            return;
+        }
+        let error = traced.problem().size(&step);
+        if error <= tolerance || error.is_nan() {
+            return;
+        }
+        accuracy *= (0.3 * tolerance / error).clamp(1e-4, 0.5);
+    }
+}
+
+/// Most meshes that are tried at the start of a branch.
+const MESHES: usize = 6;
 
 /// Joins two legs that leave the same point; `middle` is that point if neither of them has it.
 fn add(
@@ -224,11 +247,13 @@ fn add(
     collection.branches.push(Branch { origin, points, ends: [first, plus.end] });
     for met in met {
         let mut done = !met.simple || met.fold;
+        let branches = &mut collection.branches;
         for known in collection.known.iter_mut().filter(|known| !known.met.fold) {
-            if same_point(&collection.branches, (known.branch, known.at), (branch, met.at)) {
-                // Both branches through it are known by now.
+            if same_point(branches, (known.branch, known.at), (branch, met.at)) {
+                // Both branches through it are known by now; how they cross is seen best from the first.
                 known.done = true;
                 done = true;
+                branches[branch].points[met.at].kind = branches[known.branch].points[known.at].kind.clone();
             }
         }
         if !met.fold && !met.simple {
@@ -282,9 +307,20 @@ fn switch(traced: &mut Traced<'_>, follower: &mut Follower<'_>, most: usize, col
             let mut legs: Vec<Leg> = Vec::new();
             for sense in [-1.0, 1.0] {
                 let Some(snapshot) = &met.snapshot else { continue };
+                if legs.first().is_some_and(|leg| leg.end == BranchEnd::Closed) {
+                    // A loop is one leg.
+                    legs.push(Leg {
+                        points: Vec::new(),
+                        met: Vec::new(),
+                        end: BranchEnd::Closed,
+                        refused: 0,
+                    });
+                    continue;
+                }
                 traced.go_back(snapshot);
+                let reading = follower.reader.read(traced);
                 legs.push(match Walker::switch(traced, options, &met.point, tangent, sense) {
-                    Ok(mut walker) => follower.follow(traced, &mut walker, Some(PointKind::Regular)),
+                    Ok(mut walker) => follower.follow(traced, &mut walker, First::Beyond(reading)),
                     Err(stall) => Leg {
                         points: Vec::new(),
                         met: Vec::new(),

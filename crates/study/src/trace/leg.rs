@@ -29,6 +29,14 @@ pub(crate) struct Leg {
     pub refused: usize,
 }
 
+/// What the walker's first point is.
+pub(crate) enum First {
+    /// The start of the branch.
+    Start,
+    /// The first point behind a branch point, at which this was read.
+    Beyond(Reading),
+}
+
 /// How legs are followed.
 pub(crate) struct Follower<'s> {
     pub study: &'s TraceStudy,
@@ -68,8 +76,8 @@ enum Passed {
 }
 
 impl Follower<'_> {
-    /// Follows from the walker's present point, which is reported first as being of this kind.
-    pub fn follow(&mut self, traced: &mut Traced<'_>, walker: &mut Walker, first: Option<PointKind>) -> Leg {
+    /// Follows from the walker's present point, which is reported first.
+    pub fn follow(&mut self, traced: &mut Traced<'_>, walker: &mut Walker, first: First) -> Leg {
         let mut leg = Leg { points: Vec::new(), met: Vec::new(), end: BranchEnd::Range, refused: 0 };
         leg.end = self.walk(traced, walker, first, &mut leg);
         leg.refused = walker.work().refused;
@@ -80,7 +88,7 @@ impl Follower<'_> {
         &mut self,
         traced: &mut Traced<'_>,
         walker: &mut Walker,
-        first: Option<PointKind>,
+        first: First,
         leg: &mut Leg,
     ) -> BranchEnd {
         let mut error = match self.check_mesh(traced, walker) {
@@ -89,15 +97,24 @@ impl Follower<'_> {
         };
         let mut before = self.read(traced, walker);
         let mut start = walker.here().clone();
-        if let Some(kind) = first {
-            let mut point =
-                regular(traced.axes[0].value(start.point.parameters[0]), &start, before.clone(), error);
-            if kind == PointKind::End {
+        let mut point =
+            regular(traced.axes[0].value(start.point.parameters[0]), &start, before.clone(), error);
+        match first {
+            First::Start => {
+                point.kind = PointKind::End;
                 self.keep(traced, walker, &mut point);
             }
-            point.kind = kind;
-            leg.points.push(point);
+            First::Beyond(reading) => {
+                // What lies between the branch point and the first point beyond it.
+                let passed = self.watched(traced, walker, &reading, &before, 1.0);
+                for (which, place) in passed {
+                    if self.report(traced, walker, Passed::Watched(which, place), error, leg) {
+                        return BranchEnd::Stop;
+                    }
+                }
+            }
         }
+        leg.points.push(point);
         let mut since_kept = 0;
         let mut steps = 0;
         loop {
@@ -294,9 +311,9 @@ impl Follower<'_> {
         let mut best = None;
         for _ in 0..TRIES {
             let part = (a * fb - b * fa) / (fb - fa);
-            let place = walker.between(traced, part).ok()?;
-            let f = self.reader.read(traced).left[which]?;
-            best = Some(place);
+            walker.glance(traced, part).ok()?;
+            let f = self.read(traced, walker).left[which]?;
+            best = Some(part);
             if f.abs() <= 1e-13 * size || (b - a).abs() < 1e-13 {
                 break;
             }
@@ -314,7 +331,7 @@ impl Follower<'_> {
                 side = -1;
             }
         }
-        best
+        walker.between(traced, best?).ok()
     }
 
     /// Reports what was passed; true if the leg stops there.
