@@ -27,7 +27,7 @@ pub const CASES: [Case; 4] = [
         id: "sensor_strip",
         title: "Table 5.2: a sensor of weight 0.8 or 1.6 π²EI/4L² on the strip, on slopes of 0, 45° and 90° \
                 (`strip_on_slope.toml`): push from which it bows against the weight, deflection and slide there. A fold of \
-                the branch that hangs together with no other, reached by leading the slope from 100° to its own; the \
+                the branch that hangs together with no other, reached by leading the slope from 100° to its own, and once by search; the \
                 pitchfork at 90°",
         citation: METHOD,
         needed: "1e-7",
@@ -117,6 +117,17 @@ fn lone_fold(followed: &Followed) -> Result<Shape, String> {
     Ok(Shape { push: fold.parameter, middle, slide })
 }
 
+/// The same fold, on level ground, of a branch found by random pushes and deflation.
+fn searched(file: &File) -> Result<Shape, String> {
+    let path = Path { guesses: 3, steps: 20, ..Path::of("push", [10.0, 22.0]) };
+    let followed = file.trace(&[("weight", 0.8)], &path, 1e-10)?;
+    let others = followed.trace.branches.iter().filter(|branch| branch.origin == BranchOrigin::Search);
+    let found: Vec<_> = others.flat_map(folds).collect();
+    let [fold] = found[..] else { return Err(format!("{} folds of branches found by search", found.len())) };
+    let [middle, slide] = ["w", "u1"].map(|name| followed.number(fold, name));
+    Ok(Shape { push: fold.parameter, middle, slide })
+}
+
 fn compare(what: &str, exact: Shape, ours: Shape) -> [Row; 3] {
     [
         Row::absolute(format!("n {what}"), exact.push, ours.push, 1e-7),
@@ -160,6 +171,9 @@ fn sensor() -> Result<Vec<Row>, String> {
             if slope == 0.0 {
                 let exact = Level { weight }.fold().ok_or("no fold")?;
                 rows.push(Row::absolute(format!("n {what}, elliptic"), exact.push, push, 1e-7));
+                if weight == 0.8 {
+                    rows.extend(compare("of the branch that is searched for", exact, searched(&file)?));
+                }
             }
         }
     }

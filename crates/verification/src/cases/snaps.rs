@@ -3,7 +3,7 @@
 use crate::file::File;
 use crate::path::{Followed, Path, crossings, events, folds};
 use crate::{Case, Row};
-use flexura_solution::{Branch, PointKind, TracePoint};
+use flexura_solution::{Branch, BranchEnd, Crossing, PointKind, TracePoint};
 use flexura_testkit::arches::{Arch, Crown};
 use flexura_testkit::snaps::Bistable;
 use std::f64::consts::PI;
@@ -24,7 +24,8 @@ pub const CASES: [Case; 3] = [
     Case {
         id: "shallow_arch_sway",
         title: "The same arch, 2 mm thick: it sways to a side at 35.8026 EI/R², before the fold at 36.5065, and stands \
-                upright again past the other fold; the branch that leaves there is its own mirror image",
+                upright again past the other fold, at -15.2660; the swaying branch joins the two and comes back as its \
+                mirror image; all counts of unstable directions",
         citation: METHOD,
         needed: "1e-8 of EI/R² and R",
         run: thin,
@@ -32,8 +33,8 @@ pub const CASES: [Case; 3] = [
     },
     Case {
         id: "bistable_folds",
-        title: "`bistable_beam.toml`: greatest and least force of the S-shaped beam, as folds under a given force; and where no \
-                force is needed when the shuttle is led, unstable and stable",
+        title: "`bistable_beam.toml`: greatest and least force of the S-shaped beam, as folds under a given force; where no force \
+                is needed when the shuttle is led, unstable and stable; the stable bowed shapes between two pitchforks",
         citation: "Taylor series along the beam (`testkit/src/snaps.rs`)",
         needed: "1e-8 of EI/L² and L",
         run: bistable,
@@ -102,31 +103,46 @@ fn thick() -> Result<Vec<Row>, String> {
 
 fn thin() -> Result<Vec<Row>, String> {
     let file = File::new(ARCH)?;
-    let values = [("thickness", 2e-3)];
-    let path = Path { start: Some(0.0), ..Path::of("load", [-30.0, 60.0]) };
-    let followed = file.trace(&values, &path, 1e-10)?;
-    let branch = followed.first()?;
     let wanted = reference(2e-3)?;
+    let half = [("drop", 0.04)];
+    let path = Path { start: Some(0.0), branches: 1, events: &half, ..Path::of("load", [-30.0, 60.0]) };
+    let followed = file.trace(&[("thickness", 2e-3)], &path, 1e-10)?;
+    let branch = followed.first()?;
     let mut rows = compare("fold", &wanted.folds, &followed, &folds(branch))?;
     rows.extend(compare("branch point", &wanted.branch_points, &followed, &crossings(branch))?);
+    rows.push(pitchforks(&crossings(branch), Crossing::SubcriticalPitchfork));
     rows.push(counted(branch, &[0, 1, 2, 1, 0]));
-    let path = Path { branches: 1, ..Path::of("load", [10.0, 38.0]) };
-    let followed = file.trace(&values, &path, 1e-10)?;
-    let branches = followed.switched();
-    let [swaying] = branches[..] else { return Err(format!("{} branches", branches.len())) };
-    let (Some(first), Some(last)) = (swaying.points.first(), swaying.points.last()) else {
-        return Err("no points".to_string());
-    };
-    for name in ["sway", "turning"] {
-        let [a, b] = [first, last].map(|end| followed.number(end, name));
-        rows.push(Row::absolute(format!("mirrored {name} at the branch's ends"), a, -b, 1e-8));
+    let swaying = closed(&followed)?;
+    rows.push(counted(swaying, &[1]));
+    let both: Vec<Crown> = [0, 1, 0].iter().filter_map(|i| wanted.branch_points.get(*i).copied()).collect();
+    rows.extend(compare("the swaying branch crosses", &both, &followed, &crossings(swaying))?);
+    rows.extend(mirrored(&followed, swaying, &["sway", "turning"])?);
+    Ok(rows)
+}
+
+/// How many branch points are of another kind.
+fn pitchforks(points: &[&TracePoint], kind: Crossing) -> Row {
+    let others = points.iter().filter(|point| point.kind != PointKind::Branch(kind));
+    Row::vanishing("branch points of other kinds", others.count() as f64, 0.0)
+}
+
+/// The one branch that crosses the first and comes back to itself.
+fn closed(followed: &Followed) -> Result<&Branch, String> {
+    match followed.switched()[..] {
+        [branch] if branch.ends == [BranchEnd::Closed, BranchEnd::Closed] => Ok(branch),
+        ref branches => Err(format!("not one closed branch but {}", branches.len())),
     }
-    rows.push(Row::absolute(
-        "drop at both",
-        followed.number(first, "drop"),
-        followed.number(last, "drop"),
-        1e-8,
-    ));
+}
+
+/// On a branch that is its own mirror image the event happens twice, with opposite values of what the mirror turns.
+fn mirrored(followed: &Followed, branch: &Branch, names: &[&str]) -> Result<Vec<Row>, String> {
+    let [a, b] = events(branch, 0)[..] else { return Err("the event does not happen twice".to_string()) };
+    let row = |name: &&str| {
+        let [a, b] = [a, b].map(|point| followed.number(point, name));
+        Row::absolute(format!("{name} and its mirror image"), a, -b, 1e-8)
+    };
+    let mut rows: Vec<Row> = names.iter().map(row).collect();
+    rows.push(Row::relative("parameter at both", a.parameter, b.parameter, 1e-8));
     Ok(rows)
 }
 
@@ -139,7 +155,7 @@ fn bistable() -> Result<Vec<Row>, String> {
     let mut rows = Vec::new();
     // Where no force is needed, the shuttle being led.
     let file = File::new(text)?;
-    let path = Path { events: &[("force", 0.0)], ..Path::of("travel", [0.0, 7.2e-3]) };
+    let path = Path { branches: 1, events: &[("force", 0.0)], ..Path::of("travel", [0.0, 7.2e-3]) };
     let led = file.trace(&[], &path, 1e-10)?;
     // Rest is one, too.
     let zeros: Vec<_> =
@@ -150,14 +166,31 @@ fn bistable() -> Result<Vec<Row>, String> {
     for (zero, point) in wanted.zeros.iter().zip(zeros) {
         rows.push(Row::scaled("travel without force", zero.travel, point.parameter, length, 1e-8));
     }
+    rows.push(pitchforks(&crossings(led.first()?), Crossing::SupercriticalPitchfork));
+    rows.push(counted(led.first()?, &[0, 1, 0]));
+    // Between the two the beam bows; halfway it is a mirror image of itself and needs no force.
+    let bowed = closed(&led)?;
+    rows.push(counted(bowed, &[0]));
+    for point in events(bowed, 0) {
+        let halfway = length * slope.sin();
+        rows.push(Row::scaled(
+            "travel of the bowed beam without force",
+            halfway,
+            point.parameter,
+            length,
+            1e-8,
+        ));
+    }
+    rows.extend(mirrored(&led, bowed, &["guide_moment"])?);
     // The same beam under a given force.
     let given = text
         .replace("coordinate = \"travel\"", "effort = \"force\"")
         .replace("travel = \"2 mm\"", "force = \"0 N\"")
         .replace("force = \"joint.guide.effort\"", "travel = \"joint.guide.coordinate\"");
-    let path = Path { start: Some(0.0), folds: Some(2), ..Path::of("force", [-0.1, 0.4]) };
+    let path = Path { start: Some(0.0), branches: 1, ..Path::of("force", [-0.3, 0.6]) };
     let followed = File::new(&given)?.trace(&[], &path, 1e-10)?;
-    let found = folds(followed.first()?);
+    let branch = followed.first()?;
+    let found = folds(branch);
     if found.len() != wanted.folds.len() {
         return Err(format!("{} folds", found.len()));
     }
@@ -165,20 +198,13 @@ fn bistable() -> Result<Vec<Row>, String> {
         rows.push(Row::scaled("fold: force", fold.force, point.parameter, unit, 1e-8));
         rows.push(Row::scaled("travel", fold.travel, followed.number(point, "travel"), length, 1e-8));
     }
-    // The bowed beam comes by halfway, where it is the mirror image of itself and needs no force.
-    let path = Path { branches: 1, ..Path::of("force", [0.0, 0.4]) };
-    let followed = File::new(&given)?.trace(&[], &path, 1e-10)?;
-    let branches = followed.switched();
-    let [bowed] = branches[..] else { return Err(format!("{} branches", branches.len())) };
-    for end in [bowed.points.first(), bowed.points.last()].into_iter().flatten() {
-        let travel = followed.number(end, "travel");
-        rows.push(Row::scaled(
-            "travel of the bowed beam without force",
-            length * slope.sin(),
-            travel,
-            length,
-            1e-8,
-        ));
+    rows.push(pitchforks(&crossings(branch), Crossing::SubcriticalPitchfork));
+    rows.push(counted(branch, &[0, 1, 2, 1, 0]));
+    rows.push(counted(closed(&followed)?, &[1]));
+    // Led or given, it is the same equilibrium.
+    for (led, given) in crossings(led.first()?).iter().zip(crossings(branch)) {
+        let travel = followed.number(given, "travel");
+        rows.push(Row::scaled("branch point: travel, given the force", led.parameter, travel, length, 1e-8));
     }
     Ok(rows)
 }

@@ -59,7 +59,7 @@ fn hockle() -> Result<Vec<Row>, String> {
     let ratio = followed.number(point, "torque_ratio");
     let twofold = if point.kind == PointKind::Branch(Crossing::Multiple(2)) { 2.0 } else { f64::NAN };
     Ok(vec![
-        Row::absolute("torque, EI/L", hockling(), ratio, 1e-8 * hockling()),
+        Row::relative("torque, EI/L", hockling(), ratio, 1e-8),
         Row::absolute("torque, EI/L, as printed", 8.986819, ratio, 5e-7),
         Row::absolute("torque, N·mm, as printed", 222.21, 1e3 * point.parameter, 5e-3),
         Row::absolute("directions that give way", 2.0, twofold, 0.0),
@@ -75,9 +75,9 @@ fn hooked() -> Result<Vec<Row>, String> {
     let [first, second] = found[..] else { return Err(format!("{} branch points", found.len())) };
     let exact = universal(0.0).ok_or("no critical torque")?;
     Ok(vec![
-        Row::absolute("first critical torque, EI/L", exact, first.parameter, 1e-8 * exact),
-        Row::absolute("which is π", PI, first.parameter, 1e-8 * PI),
-        Row::absolute("second, Greenhill's, EI/L", greenhill(), second.parameter, 1e-8 * greenhill()),
+        Row::relative("first critical torque, EI/L", exact, first.parameter, 1e-8),
+        Row::relative("which is π", PI, first.parameter, 1e-8),
+        Row::relative("second, Greenhill's, EI/L", greenhill(), second.parameter, 1e-8),
         Row::absolute("directions that give way", 1.0, first.directions.len() as f64, 0.0),
         miscounted(&followed, |torque| usize::from(torque > PI) + usize::from(torque > greenhill()))?,
     ])

@@ -100,7 +100,7 @@ fn curves() -> Result<Vec<Row>, String> {
     for degrees in [0.0, 45.0, 72.748_f64] {
         let slope = degrees.to_radians();
         let found = curve(1.0, slope, ("weight", [0.2, 2.0]), 12)?;
-        let every = found.len().div_ceil(6);
+        let every = found.len().div_ceil(4);
         for (weight, [push, middle]) in found.iter().step_by(every).chain(found.last()) {
             let exact = Slope::new(*weight, slope).fold().map_err(|error| format!("{error:?}"))?;
             let what = format!("at the weight {weight:.4} on {degrees}°");
