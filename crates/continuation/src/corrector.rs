@@ -39,15 +39,20 @@ pub(crate) struct Limits {
     pub farthest: f64,
     /// Size of the predicted step.
     pub reach: f64,
+    /// Size of a correction below which the tangent is renewed once, so that it is, but for corrections of the correction, the new
+    /// point's; zero where the old one may serve to the end.
+    pub renewed_below: f64,
 }
 
 /// A correction that arrived.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Corrected {
     /// Size of the first correction.
     pub first: f64,
     /// Is the system's tangent another one than before?
     pub renewed: bool,
+    /// v of the last tangent.
+    pub slope: Vec<f64>,
 }
 
 const MOST: usize = 12;
@@ -99,10 +104,10 @@ pub(crate) fn correct<P: Problem>(
         parameters[0] += dp;
         problem.set_parameters(parameters)?;
         if size <= limits.tolerance || (size <= ROUND_OFF && slow) {
-            return Ok(Corrected { first: start, renewed });
+            return Ok(Corrected { first: start, renewed, slope: v });
         }
         before = size;
-        if slow && !fresh {
+        if !fresh && (slow || size < limits.renewed_below) {
             v = linearise(problem, &mut step)?;
             (fresh, renewed) = (true, true);
             before = f64::INFINITY;

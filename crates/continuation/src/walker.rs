@@ -105,6 +105,9 @@ pub struct Walker {
     work: WalkWork,
 }
 
+/// Size of a correction below which a step's tangent is made anew: what is left to correct then is nothing to the tangent.
+const LATE: f64 = 1e-3;
+
 /// How often the way between two points is halved at most, to tell apart what lies on it.
 const DEPTH: usize = 9;
 
@@ -211,8 +214,12 @@ impl Walker {
         }
         self.is_tangent_here = false;
         self.here.point.restore(problem).map_err(stall)?;
-        let limits =
-            Limits { tolerance: self.options.tolerance, farthest: 1.0, reach: self.options.largest_change };
+        let limits = Limits {
+            tolerance: self.options.tolerance,
+            farthest: 1.0,
+            reach: self.options.largest_change,
+            renewed_below: 0.0,
+        };
         let polished = correct(problem, &self.here.tangent, None, &limits);
         polished.map_err(|_| Stall::Short)?;
         problem.system().linearise().map_err(|b| stall(b.into()))?;
@@ -330,7 +337,7 @@ impl Walker {
         problem.system().retract(&step);
         let parameters = left.point.parameters;
         problem.set_parameters([parameters[0] + part * whole.parameter, parameters[1]]).map_err(stall)?;
-        let limits = Limits { tolerance: self.options.tolerance, farthest: 0.5, reach };
+        let limits = Limits { tolerance: self.options.tolerance, farthest: 0.5, reach, renewed_below: 0.0 };
         let found = correct(problem, &self.here.tangent, Some(&self.here.slope), &limits);
         self.is_tangent_here = found.as_ref().is_ok_and(|found| !found.renewed);
         found.map(|_| ()).map_err(|_| Stall::Short)
@@ -408,16 +415,26 @@ impl Walker {
         problem
             .set_parameters([parameters[0] + step.parameter, parameters[1]])
             .map_err(|refusal| (refusal.into(), 0.3))?;
-        let limits = Limits { tolerance: self.options.tolerance, farthest: self.options.farthest, reach };
-        let first = correct(problem, &here.tangent, Some(&here.slope), &limits).map_err(|miss| {
+        let limits = Limits {
+            tolerance: self.options.tolerance,
+            farthest: self.options.farthest,
+            reach,
+            renewed_below: LATE,
+        };
+        let arrived = correct(problem, &here.tangent, Some(&here.slope), &limits).map_err(|miss| {
             let factor = match &miss {
                 Miss::Far(by) => (0.5 * self.options.farthest / by).sqrt().clamp(0.1, 0.6),
                 _ => 0.35,
             };
             (miss, factor)
         })?;
-        problem.system().linearise().map_err(|b| (b.into(), 0.7))?;
-        let (slope, mut tangent) = direction_here(problem).map_err(|refusal| (refusal.into(), 0.7))?;
+        let (slope, mut tangent) = if arrived.renewed {
+            let tangent = direction(problem.system(), &arrived.slope).ok_or((Miss::NotContracting, 0.7))?;
+            (arrived.slope, tangent)
+        } else {
+            problem.system().linearise().map_err(|b| (b.into(), 0.7))?;
+            direction_here(problem).map_err(|refusal| (refusal.into(), 0.7))?
+        };
         let mut cosine = tangent.product(problem.system(), &here.tangent.step, here.tangent.parameter);
         // The metric may have changed a little with the loads.
         let length =
@@ -430,7 +447,7 @@ impl Walker {
         if cosine < self.options.least_cosine {
             return Err((Miss::NotContracting, 0.4));
         }
-        let by_way = (self.options.aim * reach / first.first.max(1e-12)).sqrt();
+        let by_way = (self.options.aim * reach / arrived.first.max(1e-12)).sqrt();
         let turned = cosine.min(1.0).acos();
         let by_turn = self.options.aimed_cosine.acos() / turned.max(1e-6);
         let growth = by_way.min(by_turn).clamp(0.5, 2.0);
@@ -508,7 +525,7 @@ impl Walker {
         problem.system().retract(&step);
         let parameters = from.point.parameters;
         problem.set_parameters([parameters[0] + part * whole.parameter, parameters[1]])?;
-        let limits = Limits { tolerance: self.options.tolerance, farthest: 0.5, reach };
+        let limits = Limits { tolerance: self.options.tolerance, farthest: 0.5, reach, renewed_below: 0.0 };
         correct(problem, &to.tangent, None, &limits)?;
         problem.system().linearise()?;
         let (slope, mut tangent) = direction_here(problem)?;
@@ -544,11 +561,14 @@ fn largest<S: flexura_nonlinear::Liftable>(system: &S, tangent: &Tangent, option
 /// The slope of the state and the unit direction of the path, with the tangent of the present point.
 fn direction_here<P: Problem>(problem: &mut P) -> Result<(Vec<f64>, Tangent), Refusal> {
     let slope = slope(problem, 0)?;
-    let tangent = Tangent { step: slope.clone(), parameter: 1.0 }.normalised(problem.system());
-    if !tangent.parameter.is_finite() {
-        return Err(Refusal::Broken(Breakdown::NotFinite));
-    }
+    let tangent = direction(problem.system(), &slope).ok_or(Refusal::Broken(Breakdown::NotFinite))?;
     Ok((slope, tangent))
+}
+
+/// The unit direction of a path whose state has this slope.
+fn direction<S: flexura_nonlinear::Liftable>(system: &S, slope: &[f64]) -> Option<Tangent> {
+    let tangent = Tangent { step: slope.to_vec(), parameter: 1.0 }.normalised(system);
+    tangent.parameter.is_finite().then_some(tangent)
 }
 
 /// The first point of a branch beyond its branch point.
@@ -565,7 +585,8 @@ pub(crate) fn first_point<P: Problem>(
     problem.system().retract(&step);
     let parameters = from.parameters;
     problem.set_parameters([parameters[0] + width * tangent.parameter, parameters[1]])?;
-    let limits = Limits { tolerance: options.tolerance, farthest: options.farthest, reach };
+    let limits =
+        Limits { tolerance: options.tolerance, farthest: options.farthest, reach, renewed_below: 0.0 };
     correct(problem, tangent, None, &limits)?;
     let point = Point::here(problem);
     let gone = between(problem, from, &point);

@@ -128,7 +128,7 @@ pub fn trace(
 /// Samples of all beams together, and of each at least, in a state that is kept.
 const MOST_SAMPLES: usize = 20_000;
 const FEWEST_SAMPLES: usize = 5;
-const KEPT_SAMPLES: usize = 41;
+const KEPT_SAMPLES: usize = 31;
 
 /// The path's own limits.
 pub(crate) fn walk_options(follower: &Follower<'_>) -> WalkOptions {

@@ -50,7 +50,7 @@ pub(crate) struct Follower<'s> {
 }
 
 /// Regular points between two whose whole state is kept.
-const KEPT: usize = 5;
+const KEPT: usize = 8;
 /// A parameter that lies outside its range by so little is at its end.
 const EDGE: f64 = 1e-9;
 /// Most tries to find where a quantity has a value.
