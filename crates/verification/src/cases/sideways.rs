@@ -22,7 +22,7 @@ pub const CASES: [Case; 2] = [
         id: "frame_end_moments",
         title: "Right-angle frame under end moments (`frame_end_moments.toml`), closing and opening the corner: \
                 (π/L)√(EI2 GJ) = 622.21 N·mm with EI3 without bound; with the true EI3 the legs bend to arcs first, \
-                622.2217 and 622.2219 N·mm",
+                622.2217 and 622.2219 N·mm. Opened further, the corner twists as well, at 631.47 N·mm",
         citation: "J. H. Argyris et al., *Comput. Methods Appl. Mech. Eng.* 20 (1979) 105; with EI3 small motions of two \
                    arcs (`testkit/src/lateral.rs`)",
         needed: "1e-8; the digits printed",
@@ -72,6 +72,27 @@ fn frame() -> Result<Vec<Row>, String> {
             }
             rows.push(miscounted(&followed, |moment| usize::from(sign * moment > wanted))?);
         }
+    }
+    rows.extend(twisted(text, [soft, f64::INFINITY], torsion, plain)?);
+    Ok(rows)
+}
+
+/// The second branch point of the opening frame, at which its legs move to opposite sides; and none of the closing one.
+fn twisted(text: &str, bending: [f64; 2], torsion: f64, first: f64) -> Result<Vec<Row>, String> {
+    let file = File::new(text)?;
+    let mut rows = Vec::new();
+    for sign in [1.0, -1.0] {
+        let exact =
+            lateral::twisted_frame(bending, torsion, 0.24, FRAC_PI_2, sign).ok_or("no critical moment")?;
+        let followed = file.trace(&[], &Path::of("moment", [0.0, 0.7 * sign]), 1e-10)?;
+        let found = crossings(followed.first()?);
+        if exact < 0.7 {
+            let [_, point] = found[..] else { return Err(format!("{} branch points", found.len())) };
+            rows.push(Row::relative("moment that twists the corner", exact, sign * point.parameter, 1e-8));
+        }
+        rows.push(miscounted(&followed, |moment| {
+            usize::from(sign * moment > first) + usize::from(sign * moment > exact)
+        })?);
     }
     Ok(rows)
 }
