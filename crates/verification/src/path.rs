@@ -1,5 +1,6 @@
 //! Bundled model files, traced the way a user would.
 
+use crate::Row;
 use crate::file::File;
 use flexura::{FileFamily, Options};
 use flexura_model::{CriticalStudy, Model, Stop, Target, TraceStudy};
@@ -181,4 +182,30 @@ pub fn crossings(branch: &Branch) -> Vec<&TracePoint> {
 /// The points of a branch where the event with that number happens.
 pub fn events(branch: &Branch, number: usize) -> Vec<&TracePoint> {
     points(branch, |kind| *kind == PointKind::Event(number))
+}
+
+/// The points of a branch where nothing happens, its ends among them.
+fn regular(branch: &Branch) -> impl Iterator<Item = &TracePoint> {
+    branch.points.iter().filter(|point| matches!(point.kind, PointKind::Regular | PointKind::End))
+}
+
+/// How many regular points of a branch have another count of unstable directions than `unstable` says for their parameter.
+pub fn miscounted(branch: &Branch, unstable: impl Fn(f64) -> usize) -> Row {
+    let wrong = regular(branch).filter(|point| point.unstable_directions != Some(unstable(point.parameter)));
+    Row::vanishing("points where the unstable directions are miscounted", wrong.count() as f64, 0.0)
+}
+
+/// A row that holds if the unstable directions along a branch are counted like this, one after the other. Where two of its
+/// critical points lie so near each other that no regular point is between them, one count may be left out.
+pub fn counted(branch: &Branch, wanted: &[usize]) -> Row {
+    let mut counts: Vec<_> = regular(branch).map(|point| point.unstable_directions).collect();
+    counts.dedup();
+    let mut rest = wanted.iter().map(|count| Some(*count));
+    let in_order = counts.iter().all(|count| rest.any(|wanted| wanted == *count));
+    let ends = [counts.first(), counts.last()].map(|end| end.copied().flatten());
+    let whole = ends == [wanted.first(), wanted.last()].map(|end| end.copied())
+        && counts.iter().flatten().max() == wanted.iter().max()
+        && counts.len() + 1 >= wanted.len();
+    let name = format!("unstable directions along the path are not {wanted:?}");
+    Row::vanishing(name, if in_order && whole { 0.0 } else { 1.0 }, 0.0)
 }

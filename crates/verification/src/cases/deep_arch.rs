@@ -1,8 +1,7 @@
 //! The deep clamped-hinged arch of DaDeppo and Schmidt: its greatest load, led down and under a given load.
 
-use super::snaps::counted;
 use crate::file::File;
-use crate::path::{Path, crossings, folds};
+use crate::path::{Path, counted, crossings, folds};
 use crate::{Case, Row};
 use flexura_testkit::arches;
 use flexura_testkit::planar::{self, Beam, Body, End, Mechanism};

@@ -1,8 +1,7 @@
 //! The right-angle frame that buckles out of its plane.
 
-use super::snaps::counted;
 use crate::file::File;
-use crate::path::{Path, crossings};
+use crate::path::{Path, counted, crossings};
 use crate::{Case, Row};
 
 pub const CASES: [Case; 1] = [Case {

@@ -1,8 +1,7 @@
 //! Lee's frame: its load and the way of the point under it both turn back.
 
-use super::snaps::counted;
 use crate::file::File;
-use crate::path::{Path, crossings, folds};
+use crate::path::{Path, counted, crossings, folds};
 use crate::{Case, Row};
 use flexura_testkit::snaps::{LoadedFrame, lees_frame};
 

@@ -2,7 +2,7 @@
 //! it bows against the weight (Table 5.2).
 
 use crate::file::File;
-use crate::path::{Followed, Path, crossings, folds};
+use crate::path::{Followed, Path, counted, crossings, events, folds};
 use crate::{Case, Row};
 use flexura_solution::{Branch, BranchOrigin, Crossing, PointKind};
 use flexura_testkit::slope::Slope;
@@ -59,19 +59,25 @@ pub(super) const FILE: &str = include_str!("../../../../models/strip_on_slope.to
 const LENGTH: f64 = 0.1524;
 
 fn without_weight() -> Result<Vec<Row>, String> {
-    let file = File::new(FILE)?;
-    let mut rows = Vec::new();
-    for push in [17.0, 20.0, 25.0] {
-        let path = Path { branches: 1, steps: 20, ..Path::of("push", [14.0, push]) };
-        let followed = file.trace(&[("weight", 0.0)], &path, 1e-10)?;
-        let exact = weightless(push).ok_or("it has not buckled")?;
-        rows.push(Row::relative("buckling load", 16.0, pitchfork(followed.first()?)?, 1e-8));
-        let branches = followed.switched();
-        let [branch] = branches[..] else { return Err(format!("{} branches", branches.len())) };
-        for end in [branch.points.first(), branch.points.last()].into_iter().flatten() {
-            let w = followed.number(end, "w");
-            rows.push(Row::absolute(format!("w at {push}"), exact.middle.copysign(w), w, 1e-8));
-            rows.push(Row::absolute("slide", exact.slide, followed.number(end, "u1"), 1e-8));
+    let pushes = [("n", 17.0), ("n", 20.0), ("n", 25.0)];
+    let path = Path { branches: 1, steps: 20, events: &pushes, ..Path::of("push", [14.0, 26.0]) };
+    let followed = File::new(FILE)?.trace(&[("weight", 0.0)], &path, 1e-10)?;
+    let branches = followed.switched();
+    let [branch] = branches[..] else { return Err(format!("{} branches", branches.len())) };
+    let mut rows = vec![
+        Row::relative("buckling load", 16.0, pitchfork(followed.first()?)?, 1e-8),
+        counted(followed.first()?, &[0, 1]),
+        counted(branch, &[0]),
+    ];
+    for (number, (_, push)) in pushes.iter().enumerate() {
+        let exact = weightless(*push).ok_or("it has not buckled")?;
+        let [left, right] = events(branch, number)[..] else {
+            return Err(format!("the push {push} is not met once on both sides"));
+        };
+        for (point, middle) in [(left, exact.middle), (right, -exact.middle)] {
+            let (w, side) = (followed.number(point, "w"), followed.number(left, "w").signum());
+            rows.push(Row::absolute(format!("w at {push}"), middle * side, w, 1e-8));
+            rows.push(Row::absolute("slide", exact.slide, followed.number(point, "u1"), 1e-8));
         }
     }
     Ok(rows)

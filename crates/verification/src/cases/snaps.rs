@@ -1,7 +1,7 @@
 //! Arches and beams that snap through under a given load: folds, and branch points before them.
 
 use crate::file::File;
-use crate::path::{Followed, Path, crossings, events, folds};
+use crate::path::{Followed, Path, counted, crossings, events, folds};
 use crate::{Case, Row};
 use flexura_solution::{Branch, BranchEnd, Crossing, PointKind, TracePoint};
 use flexura_testkit::arches::{Arch, Crown};
@@ -73,23 +73,6 @@ fn compare(
         rows.push(Row::vanishing("sway, R", followed.number(point, "sway"), 1e-8));
     }
     Ok(rows)
-}
-
-/// A row that holds if the unstable directions along a branch are counted like this, one after the other. Where two of its
-/// critical points lie so near each other that no regular point is between them, one count may be left out.
-pub(super) fn counted(branch: &Branch, wanted: &[usize]) -> Row {
-    let is_regular = |point: &&TracePoint| matches!(point.kind, PointKind::Regular | PointKind::End);
-    let mut counts: Vec<_> =
-        branch.points.iter().filter(is_regular).map(|point| point.unstable_directions).collect();
-    counts.dedup();
-    let mut rest = wanted.iter().map(|count| Some(*count));
-    let in_order = counts.iter().all(|count| rest.any(|wanted| wanted == *count));
-    let ends = [counts.first(), counts.last()].map(|end| end.copied().flatten());
-    let whole = ends == [wanted.first(), wanted.last()].map(|end| end.copied())
-        && counts.iter().flatten().max() == wanted.iter().max()
-        && counts.len() + 1 >= wanted.len();
-    let name = format!("unstable directions along the path are not {wanted:?}");
-    Row::vanishing(name, if in_order && whole { 0.0 } else { 1.0 }, 0.0)
 }
 
 fn thick() -> Result<Vec<Row>, String> {

@@ -1,9 +1,9 @@
 //! Shafts and a ring that buckle under torsion.
 
 use crate::file::File;
-use crate::path::{Followed, Path, crossings};
+use crate::path::{Path, crossings, miscounted};
 use crate::{Case, Row};
-use flexura_solution::{Crossing, PointKind, TracePoint};
+use flexura_solution::{Crossing, PointKind};
 use flexura_testkit::torsion::{greenhill, hockling, michell_twist, universal};
 use std::f64::consts::PI;
 
@@ -43,14 +43,6 @@ pub const CASES: [Case; 3] = [
     },
 ];
 
-/// How many regular points have another count than `unstable` says for their parameter.
-pub(super) fn miscounted(followed: &Followed, unstable: impl Fn(f64) -> usize) -> Result<Row, String> {
-    let is_regular = |point: &&TracePoint| matches!(point.kind, PointKind::Regular | PointKind::End);
-    let regular = followed.first()?.points.iter().filter(is_regular);
-    let wrong = regular.filter(|point| point.unstable_directions != Some(unstable(point.parameter)));
-    Ok(Row::vanishing("points where the unstable directions are miscounted", wrong.count() as f64, 0.0))
-}
-
 fn hockle() -> Result<Vec<Row>, String> {
     let file = File::new(include_str!("../../../../models/hockling_shaft.toml"))?;
     let followed = file.trace(&[], &Path::of("torque", [0.0, 0.3]), 1e-10)?;
@@ -64,7 +56,7 @@ fn hockle() -> Result<Vec<Row>, String> {
         Row::absolute("torque, N·mm, as printed", 222.21, 1e3 * point.parameter, 5e-3),
         Row::absolute("directions that give way", 2.0, twofold, 0.0),
         Row::absolute("those that are reported", 2.0, point.directions.len() as f64, 0.0),
-        miscounted(&followed, |torque| if torque < point.parameter { 0 } else { 2 })?,
+        miscounted(followed.first()?, |torque| if torque < point.parameter { 0 } else { 2 }),
     ])
 }
 
@@ -79,7 +71,7 @@ fn hooked() -> Result<Vec<Row>, String> {
         Row::relative("which is π", PI, first.parameter, 1e-8),
         Row::relative("second, Greenhill's, EI/L", greenhill(), second.parameter, 1e-8),
         Row::absolute("directions that give way", 1.0, first.directions.len() as f64, 0.0),
-        miscounted(&followed, |torque| usize::from(torque > PI) + usize::from(torque > greenhill()))?,
+        miscounted(followed.first()?, |torque| usize::from(torque > PI) + usize::from(torque > greenhill())),
     ])
 }
 
@@ -94,6 +86,6 @@ fn twist() -> Result<Vec<Row>, String> {
         Row::absolute("turns, as printed", 2.2517, point.parameter / (2.0 * PI), 5e-5),
         Row::absolute("torsional moment, EI/R", 3f64.sqrt(), followed.number(point, "torque_ratio"), 1e-8),
         Row::vanishing("out of plane until then, R", followed.number(point, "height"), 1e-8),
-        miscounted(&followed, |angle| usize::from(angle > exact))?,
+        miscounted(followed.first()?, |angle| usize::from(angle > exact)),
     ])
 }
