@@ -83,6 +83,7 @@ pub(crate) fn correct<P: Problem>(
         None => linearise(problem, &mut step)?,
     };
     let (mut first, mut before) = (None, f64::INFINITY);
+    let mut borne = Borne::default();
     for _ in 0..MOST {
         let system = problem.system();
         let dp = -across.product(system, &step, 0.0) / across.product(system, &v, 1.0);
@@ -96,7 +97,7 @@ pub(crate) fn correct<P: Problem>(
         }
         let start = *first.get_or_insert(size);
         let slow = size > SLOW * before;
-        if size > WORST * before && fresh && size > ROUND_OFF {
+        if size > WORST * before && fresh && size > ROUND_OFF && !borne.bear(size, before) {
             return Err(Miss::NotContracting);
         }
         system.retract(&step);
@@ -126,19 +127,32 @@ fn linearise<P: Problem>(problem: &mut P, step: &mut [f64]) -> Result<Vec<f64>, 
     Ok(slope(problem, 0)?)
 }
 
+/// One correction that does not contract is borne: what a small turning of a stiff beam leaves of second order is a force that the next
+/// correction takes away.
+#[derive(Default)]
+struct Borne(bool);
+
+impl Borne {
+    fn bear(&mut self, size: f64, before: f64) -> bool {
+        !std::mem::replace(&mut self.0, true) && size <= 2.0 * before
+    }
+}
+
 /// Newton at fixed parameters from a state near by.
 pub(crate) fn settle<P: Problem>(problem: &mut P, tolerance: f64) -> Result<(), Miss> {
     let mut step = vec![0.0; problem.system().unknowns()];
     let mut before = f64::INFINITY;
+    let mut borne = Borne::default();
     for _ in 0..MOST {
         problem.system().linearise()?;
         problem.system().newton_step(&mut step);
         let size = problem.system().size(&step);
-        if !size.is_finite() || (size > WORST * before && size > ROUND_OFF) {
+        let stands = size > WORST * before;
+        if !size.is_finite() || (stands && size > ROUND_OFF && !borne.bear(size, before)) {
             return Err(Miss::NotContracting);
         }
         problem.system().retract(&step);
-        if size <= tolerance || size > WORST * before {
+        if size <= tolerance || (stands && size <= ROUND_OFF) {
             return Ok(());
         }
         before = size;

@@ -273,27 +273,29 @@ impl Walker {
             }
             let width = self.width;
             match self.try_step(problem, width) {
-                Ok((place, growth)) => match self.passed(problem, &self.here, &place, DEPTH) {
-                    Ok(specials) => {
-                        let left = std::mem::replace(&mut self.here, place);
-                        self.before = Some((left.tangent.clone(), width));
-                        self.last = Some((left, width));
-                        self.width = (width * growth).min(cap);
-                        self.work.taken += 1;
-                        let disturbed = !specials.is_empty();
-                        if disturbed {
+                Ok((place, growth)) => {
+                    match self.passed(problem, &self.here, &place, (&self.here, &place), DEPTH) {
+                        Ok(specials) => {
+                            let left = std::mem::replace(&mut self.here, place);
+                            self.before = Some((left.tangent.clone(), width));
+                            self.last = Some((left, width));
+                            self.width = (width * growth).min(cap);
+                            self.work.taken += 1;
+                            let disturbed = !specials.is_empty();
+                            if disturbed {
+                                self.is_tangent_here = false;
+                            }
+                            if self.here.point.restore(problem).is_err() {
+                                return Advance::Stalled(Stall::Short);
+                            }
+                            return Advance::To(specials);
+                        }
+                        Err(()) => {
                             self.is_tangent_here = false;
+                            self.width = 0.4 * width;
                         }
-                        if self.here.point.restore(problem).is_err() {
-                            return Advance::Stalled(Stall::Short);
-                        }
-                        return Advance::To(specials);
                     }
-                    Err(()) => {
-                        self.is_tangent_here = false;
-                        self.width = 0.4 * width;
-                    }
-                },
+                }
                 Err((miss, factor)) => {
                     if let Miss::Refused(Refusal::Parameter(why)) = miss {
                         parameter_trouble = Some(why);
@@ -469,6 +471,7 @@ impl Walker {
         problem: &mut P,
         from: &Place,
         to: &Place,
+        whole: (&Place, &Place),
         depth: usize,
     ) -> Result<Vec<Special>, ()> {
         let turned = from.tangent.parameter * to.tangent.parameter < 0.0;
@@ -477,18 +480,19 @@ impl Walker {
             (Some(a), Some(b)) => Some(a.abs_diff(b)),
             _ => None,
         };
-        let bracket = || Bracket {
-            before: &from.point,
-            after: &to.point,
-            tangent: &from.tangent,
-            index: [from.index, to.index],
+        // Where the count is made on another mesh than det J, it may change a little aside; the ends of the whole step then say how it
+        // changes.
+        let index = match change {
+            Some(0) => [whole.0.index, whole.1.index],
+            _ => [from.index, to.index],
         };
+        let bracket = || Bracket { before: &from.point, after: &to.point, tangent: &from.tangent, index };
         let found = match (flipped, turned, change) {
-            (false, false, None | Some(0)) => return Ok(Vec::new()),
-            (true, true, None | Some(1)) => locate(problem, &bracket(), true),
-            (true, false, None | Some(1)) => locate(problem, &bracket(), false),
+            (false, false, None | Some(0 | 1)) => return Ok(Vec::new()),
+            (true, true, None | Some(0 | 1)) => locate(problem, &bracket(), true),
+            (true, false, None | Some(0 | 1)) => locate(problem, &bracket(), false),
             // The side branch of a pitchfork turns back where it meets the other.
-            (false, true, None | Some(0)) => locate(problem, &bracket(), false),
+            (false, true, None | Some(0 | 1)) => locate(problem, &bracket(), false),
             (_, _, Some(count)) if depth == 0 && count > 1 => {
                 let tolerance = self.options.tolerance;
                 let length = to.arc - from.arc;
@@ -505,8 +509,8 @@ impl Walker {
         }
         // Not in the middle, where symmetry likes to put what is sought.
         let middle = self.place_between(problem, from, to, 0.47).map_err(|_| ())?;
-        let mut all = self.passed(problem, from, &middle, depth - 1)?;
-        all.extend(self.passed(problem, &middle, to, depth - 1)?);
+        let mut all = self.passed(problem, from, &middle, whole, depth - 1)?;
+        all.extend(self.passed(problem, &middle, to, whole, depth - 1)?);
         Ok(all)
     }
 

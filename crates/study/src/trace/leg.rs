@@ -285,8 +285,8 @@ impl Follower<'_> {
         let mut found = Vec::new();
         for (i, pair) in before.left.iter().zip(&after.left).enumerate() {
             let (Some(a), Some(b)) = pair else { continue };
-            // Zero at the start of a step was seen at the end of the one before.
-            if (a * b >= 0.0 && *b != 0.0) || *a == 0.0 {
+            // Zero at the start of a step, up to round-off, was seen at the end of the one before.
+            if (a * b >= 0.0 && *b != 0.0) || a.abs() <= 1e-12 * b.abs() {
                 continue;
             }
             if let Some(place) = self.zero(traced, walker, i, (*a, *b), whole) {
