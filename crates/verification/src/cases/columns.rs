@@ -2,7 +2,7 @@
 
 use crate::file::File;
 use crate::measure::worst;
-use crate::path::{Path, crossings};
+use crate::path::{Path, counted, crossings, miscounted};
 use crate::{Case, Row};
 use flexura_solution::{Crossing, PointKind, TracePoint};
 use flexura_spatial::Vector3;
@@ -64,19 +64,8 @@ fn buckle() -> Result<Vec<Row>, String> {
             .filter(|point| point.kind != PointKind::Branch(Crossing::SupercriticalPitchfork))
             .count();
         rows.push(Row::vanishing(format!("branch points of other kinds, {name}"), others as f64, 0.0));
-        let regular: Vec<_> =
-            branch.points.iter().filter(|point| !matches!(point.kind, PointKind::Branch(_))).collect();
-        let miscounted = regular
-            .iter()
-            .filter(|point| point.unstable_directions != Some(ends.unstable(point.parameter)))
-            .count();
-        rows.push(Row::vanishing(
-            format!("points where the unstable directions are miscounted, {name}"),
-            miscounted as f64,
-            0.0,
-        ));
-        let most = regular.iter().filter_map(|point| point.unstable_directions).max().unwrap_or_default();
-        rows.push(Row::absolute(format!("most unstable directions, {name}"), 3.0, most as f64, 0.0));
+        rows.push(miscounted(branch, |load| ends.unstable(load)));
+        rows.push(counted(branch, &[0, 1, 2, 3]));
         if ends == Ends::PinnedPinned {
             for (i, point) in found.iter().enumerate() {
                 rows.push(sine(point, i + 1)?);
