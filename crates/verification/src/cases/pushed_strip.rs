@@ -4,7 +4,7 @@
 use crate::file::File;
 use crate::path::{Followed, Path, counted, crossings, events, folds};
 use crate::{Case, Row};
-use flexura_solution::{Branch, BranchOrigin, Crossing, PointKind};
+use flexura_solution::{Branch, BranchOrigin, Crossing, PointKind, TracePoint};
 use flexura_testkit::slope::Slope;
 use flexura_testkit::strip::{Level, Shape, weightless};
 use std::f64::consts::FRAC_PI_2;
@@ -45,8 +45,8 @@ pub const CASES: [Case; 4] = [
     },
     Case {
         id: "sensor_strip_variants",
-        title: "The same strip with weight along it only (`beam_weight=0.8`), with weight along the axis (90°), and one that \
-                stretches, 5.08 mm thick",
+        title: "The same strip with weight along it only (`beam_weight=0.8`), with weights along the axis that help or \
+                hinder the push (90°), and one that stretches, 5.08 mm thick",
         citation: METHOD,
         needed: "1e-7",
         run: variants,
@@ -93,7 +93,8 @@ fn pitchfork(branch: &Branch) -> Result<f64, String> {
     }
 }
 
-/// From rest to the push `top`, and on the branch bent against gravity, with the slope led to its own from 100°, where it bows that way by itself.
+/// From rest to the push `top`, and on the branch bent against gravity, with the slope led to its own from 100°, where it
+/// bows that way by itself.
 pub(super) fn against_gravity<'a>(
     file: &File,
     values: &[(&str, f64)],
@@ -113,8 +114,7 @@ fn lone_fold(followed: &Followed) -> Result<Shape, String> {
     let branch = followed.branch(|origin| origin == BranchOrigin::Imperfection)?;
     let found = folds(branch);
     let [fold] = found[..] else { return Err(format!("{} folds", found.len())) };
-    let directions =
-        |end: Option<&flexura_solution::TracePoint>| end.and_then(|point| point.unstable_directions);
+    let directions = |end: Option<&TracePoint>| end.and_then(|point| point.unstable_directions);
     let ends = [directions(branch.points.first()), directions(branch.points.last())];
     if ends != [Some(0), Some(1)] {
         return Err(format!("unstable directions at the ends of the branch: {ends:?}"));
@@ -207,9 +207,15 @@ fn variants() -> Result<Vec<Row>, String> {
         let strip = Slope { beam_weight: 0.8, ..Slope::new(0.0, slope.to_radians()) };
         critical(&file, &strip, &[], &format!("of a heavy strip at {slope}°"), &mut rows)?;
     }
-    // Gravity along the strip, in the direction of the push and against it.
     let wall = Slope { beam_weight: 0.5, ..Slope::new(0.8, FRAC_PI_2) };
     critical(&file, &wall, &[], "with both weights along the axis", &mut rows)?;
+    // Turned over, the same weights pull against the push.
+    let exact = Slope { weight: -0.8, beam_weight: -0.5, ..wall }
+        .pitchfork()
+        .map_err(|error| format!("{error:?}"))?;
+    let values = [("weight", 0.8), ("beam_weight", 0.5), ("slope", -FRAC_PI_2)];
+    let followed = file.trace(&values, &Path { steps: 20, ..Path::of("push", [10.0, 18.0]) }, 1e-10)?;
+    rows.push(Row::absolute("n with both against the push", exact, pitchfork(followed.first()?)?, 1e-7));
     let thickness = 5.08e-3;
     let stretching = File::new(&FILE.replace("extension = false", "extension = true"))?;
     for slope in [0.0, 45.0, 90.0_f64] {
