@@ -160,7 +160,8 @@ impl Walker {
         let mut tangent = branch.clone();
         tangent.scale(sense);
         from.restore(problem).map_err(stall)?;
-        let mut width = 0.6 * largest(problem.system(), &tangent, &options);
+        // A short one: what crosses the branch close to its start is not to be stepped over.
+        let mut width = 0.15 * largest(problem.system(), &tangent, &options);
         let mut worst = Stall::Short;
         for _ in 0..14 {
             match first_point(problem, &options, from, &tangent, width) {
@@ -392,13 +393,20 @@ impl Walker {
     }
 
     fn try_step<P: Problem>(&mut self, problem: &mut P, width: f64) -> Result<(Place, f64), (Miss, f64)> {
-        let here = &self.here;
-        let restored = here.point.restore(problem).map_err(|refusal| (refusal.into(), 0.3));
-        restored?;
+        self.here.point.restore(problem).map_err(|refusal| (Miss::from(refusal), 0.3))?;
         if !self.is_tangent_here {
-            problem.system().linearise().map_err(|b| (b.into(), 0.3))?;
+            problem.system().linearise().map_err(|b| (Miss::from(b), 0.3))?;
+            // The direction may be that of a tangent from a little before the last correction, which near critical points tells.
+            let (slope, mut tangent) =
+                direction_here(problem).map_err(|refusal| (Miss::from(refusal), 0.3))?;
+            let ahead = &self.here.tangent;
+            if tangent.product(problem.system(), &ahead.step, ahead.parameter) < 0.0 {
+                tangent.scale(-1.0);
+            }
+            (self.here.slope, self.here.tangent) = (slope, tangent);
             self.is_tangent_here = true;
         }
+        let here = &self.here;
         let mut step = here.tangent.clone();
         step.scale(width);
         if let Some((before, gone)) = &self.before
