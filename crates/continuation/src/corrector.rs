@@ -39,15 +39,20 @@ pub(crate) struct Limits {
     pub farthest: f64,
     /// Size of the predicted step.
     pub reach: f64,
+    /// Size of a correction below which the tangent is renewed once, so that it is, but for corrections of the correction, the new
+    /// point's; zero where the old one may serve to the end.
+    pub renewed_below: f64,
 }
 
 /// A correction that arrived.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Corrected {
     /// Size of the first correction.
     pub first: f64,
     /// Is the system's tangent another one than before?
     pub renewed: bool,
+    /// v of the last tangent.
+    pub slope: Vec<f64>,
 }
 
 const MOST: usize = 12;
@@ -78,6 +83,7 @@ pub(crate) fn correct<P: Problem>(
         None => linearise(problem, &mut step)?,
     };
     let (mut first, mut before) = (None, f64::INFINITY);
+    let mut borne = Borne::default();
     for _ in 0..MOST {
         let system = problem.system();
         let dp = -across.product(system, &step, 0.0) / across.product(system, &v, 1.0);
@@ -91,7 +97,7 @@ pub(crate) fn correct<P: Problem>(
         }
         let start = *first.get_or_insert(size);
         let slow = size > SLOW * before;
-        if size > WORST * before && fresh && size > ROUND_OFF {
+        if size > WORST * before && fresh && size > ROUND_OFF && !borne.bear(size, before) {
             return Err(Miss::NotContracting);
         }
         system.retract(&step);
@@ -99,10 +105,10 @@ pub(crate) fn correct<P: Problem>(
         parameters[0] += dp;
         problem.set_parameters(parameters)?;
         if size <= limits.tolerance || (size <= ROUND_OFF && slow) {
-            return Ok(Corrected { first: start, renewed });
+            return Ok(Corrected { first: start, renewed, slope: v });
         }
         before = size;
-        if slow && !fresh {
+        if !fresh && (slow || size < limits.renewed_below) {
             v = linearise(problem, &mut step)?;
             (fresh, renewed) = (true, true);
             before = f64::INFINITY;
@@ -121,19 +127,32 @@ fn linearise<P: Problem>(problem: &mut P, step: &mut [f64]) -> Result<Vec<f64>, 
     Ok(slope(problem, 0)?)
 }
 
+/// One correction that does not contract is borne: what a small turning of a stiff beam leaves of second order is a force that the next
+/// correction takes away.
+#[derive(Default)]
+struct Borne(bool);
+
+impl Borne {
+    fn bear(&mut self, size: f64, before: f64) -> bool {
+        !std::mem::replace(&mut self.0, true) && size <= 2.0 * before
+    }
+}
+
 /// Newton at fixed parameters from a state near by.
 pub(crate) fn settle<P: Problem>(problem: &mut P, tolerance: f64) -> Result<(), Miss> {
     let mut step = vec![0.0; problem.system().unknowns()];
     let mut before = f64::INFINITY;
+    let mut borne = Borne::default();
     for _ in 0..MOST {
         problem.system().linearise()?;
         problem.system().newton_step(&mut step);
         let size = problem.system().size(&step);
-        if !size.is_finite() || (size > WORST * before && size > ROUND_OFF) {
+        let stands = size > WORST * before;
+        if !size.is_finite() || (stands && size > ROUND_OFF && !borne.bear(size, before)) {
             return Err(Miss::NotContracting);
         }
         problem.system().retract(&step);
-        if size <= tolerance || size > WORST * before {
+        if size <= tolerance || (stands && size <= ROUND_OFF) {
             return Ok(());
         }
         before = size;

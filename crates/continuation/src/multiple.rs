@@ -37,7 +37,8 @@ pub(crate) fn locate_multiple<P: Problem>(
         let parameters = from.point.parameters;
         problem
             .set_parameters([parameters[0] + node * from.length * from.tangent.parameter, parameters[1]])?;
-        let limits = Limits { tolerance: from.tolerance, farthest: 1e3, reach: from.length };
+        let limits =
+            Limits { tolerance: from.tolerance, farthest: 1e3, reach: from.length, renewed_below: 0.0 };
         correct(problem, from.tangent, None, &limits)?;
         problem.system().linearise()?;
         if bases.is_none() {

@@ -105,6 +105,9 @@ pub struct Walker {
     work: WalkWork,
 }
 
+/// Size of a correction below which a step's tangent is made anew: what is left to correct then is nothing to the tangent.
+const LATE: f64 = 1e-3;
+
 /// How often the way between two points is halved at most, to tell apart what lies on it.
 const DEPTH: usize = 9;
 
@@ -157,7 +160,8 @@ impl Walker {
         let mut tangent = branch.clone();
         tangent.scale(sense);
         from.restore(problem).map_err(stall)?;
-        let mut width = 0.6 * largest(problem.system(), &tangent, &options);
+        // A short one: what crosses the branch close to its start is not to be stepped over.
+        let mut width = 0.15 * largest(problem.system(), &tangent, &options);
         let mut worst = Stall::Short;
         for _ in 0..14 {
             match first_point(problem, &options, from, &tangent, width) {
@@ -211,8 +215,12 @@ impl Walker {
         }
         self.is_tangent_here = false;
         self.here.point.restore(problem).map_err(stall)?;
-        let limits =
-            Limits { tolerance: self.options.tolerance, farthest: 1.0, reach: self.options.largest_change };
+        let limits = Limits {
+            tolerance: self.options.tolerance,
+            farthest: 1.0,
+            reach: self.options.largest_change,
+            renewed_below: 0.0,
+        };
         let polished = correct(problem, &self.here.tangent, None, &limits);
         polished.map_err(|_| Stall::Short)?;
         problem.system().linearise().map_err(|b| stall(b.into()))?;
@@ -266,27 +274,29 @@ impl Walker {
             }
             let width = self.width;
             match self.try_step(problem, width) {
-                Ok((place, growth)) => match self.passed(problem, &self.here, &place, DEPTH) {
-                    Ok(specials) => {
-                        let left = std::mem::replace(&mut self.here, place);
-                        self.before = Some((left.tangent.clone(), width));
-                        self.last = Some((left, width));
-                        self.width = (width * growth).min(cap);
-                        self.work.taken += 1;
-                        let disturbed = !specials.is_empty();
-                        if disturbed {
+                Ok((place, growth)) => {
+                    match self.passed(problem, &self.here, &place, (&self.here, &place), DEPTH) {
+                        Ok(specials) => {
+                            let left = std::mem::replace(&mut self.here, place);
+                            self.before = Some((left.tangent.clone(), width));
+                            self.last = Some((left, width));
+                            self.width = (width * growth).min(cap);
+                            self.work.taken += 1;
+                            let disturbed = !specials.is_empty();
+                            if disturbed {
+                                self.is_tangent_here = false;
+                            }
+                            if self.here.point.restore(problem).is_err() {
+                                return Advance::Stalled(Stall::Short);
+                            }
+                            return Advance::To(specials);
+                        }
+                        Err(()) => {
                             self.is_tangent_here = false;
+                            self.width = 0.4 * width;
                         }
-                        if self.here.point.restore(problem).is_err() {
-                            return Advance::Stalled(Stall::Short);
-                        }
-                        return Advance::To(specials);
                     }
-                    Err(()) => {
-                        self.is_tangent_here = false;
-                        self.width = 0.4 * width;
-                    }
-                },
+                }
                 Err((miss, factor)) => {
                     if let Miss::Refused(Refusal::Parameter(why)) = miss {
                         parameter_trouble = Some(why);
@@ -330,7 +340,7 @@ impl Walker {
         problem.system().retract(&step);
         let parameters = left.point.parameters;
         problem.set_parameters([parameters[0] + part * whole.parameter, parameters[1]]).map_err(stall)?;
-        let limits = Limits { tolerance: self.options.tolerance, farthest: 0.5, reach };
+        let limits = Limits { tolerance: self.options.tolerance, farthest: 0.5, reach, renewed_below: 0.0 };
         let found = correct(problem, &self.here.tangent, Some(&self.here.slope), &limits);
         self.is_tangent_here = found.as_ref().is_ok_and(|found| !found.renewed);
         found.map(|_| ()).map_err(|_| Stall::Short)
@@ -383,13 +393,20 @@ impl Walker {
     }
 
     fn try_step<P: Problem>(&mut self, problem: &mut P, width: f64) -> Result<(Place, f64), (Miss, f64)> {
-        let here = &self.here;
-        let restored = here.point.restore(problem).map_err(|refusal| (refusal.into(), 0.3));
-        restored?;
+        self.here.point.restore(problem).map_err(|refusal| (Miss::from(refusal), 0.3))?;
         if !self.is_tangent_here {
-            problem.system().linearise().map_err(|b| (b.into(), 0.3))?;
+            problem.system().linearise().map_err(|b| (Miss::from(b), 0.3))?;
+            // The direction may be that of a tangent from a little before the last correction, which near critical points tells.
+            let (slope, mut tangent) =
+                direction_here(problem).map_err(|refusal| (Miss::from(refusal), 0.3))?;
+            let ahead = &self.here.tangent;
+            if tangent.product(problem.system(), &ahead.step, ahead.parameter) < 0.0 {
+                tangent.scale(-1.0);
+            }
+            (self.here.slope, self.here.tangent) = (slope, tangent);
             self.is_tangent_here = true;
         }
+        let here = &self.here;
         let mut step = here.tangent.clone();
         step.scale(width);
         if let Some((before, gone)) = &self.before
@@ -408,16 +425,26 @@ impl Walker {
         problem
             .set_parameters([parameters[0] + step.parameter, parameters[1]])
             .map_err(|refusal| (refusal.into(), 0.3))?;
-        let limits = Limits { tolerance: self.options.tolerance, farthest: self.options.farthest, reach };
-        let first = correct(problem, &here.tangent, Some(&here.slope), &limits).map_err(|miss| {
+        let limits = Limits {
+            tolerance: self.options.tolerance,
+            farthest: self.options.farthest,
+            reach,
+            renewed_below: LATE,
+        };
+        let arrived = correct(problem, &here.tangent, Some(&here.slope), &limits).map_err(|miss| {
             let factor = match &miss {
                 Miss::Far(by) => (0.5 * self.options.farthest / by).sqrt().clamp(0.1, 0.6),
                 _ => 0.35,
             };
             (miss, factor)
         })?;
-        problem.system().linearise().map_err(|b| (b.into(), 0.7))?;
-        let (slope, mut tangent) = direction_here(problem).map_err(|refusal| (refusal.into(), 0.7))?;
+        let (slope, mut tangent) = if arrived.renewed {
+            let tangent = direction(problem.system(), &arrived.slope).ok_or((Miss::NotContracting, 0.7))?;
+            (arrived.slope, tangent)
+        } else {
+            problem.system().linearise().map_err(|b| (b.into(), 0.7))?;
+            direction_here(problem).map_err(|refusal| (refusal.into(), 0.7))?
+        };
         let mut cosine = tangent.product(problem.system(), &here.tangent.step, here.tangent.parameter);
         // The metric may have changed a little with the loads.
         let length =
@@ -430,7 +457,7 @@ impl Walker {
         if cosine < self.options.least_cosine {
             return Err((Miss::NotContracting, 0.4));
         }
-        let by_way = (self.options.aim * reach / first.first.max(1e-12)).sqrt();
+        let by_way = (self.options.aim * reach / arrived.first.max(1e-12)).sqrt();
         let turned = cosine.min(1.0).acos();
         let by_turn = self.options.aimed_cosine.acos() / turned.max(1e-6);
         let growth = by_way.min(by_turn).clamp(0.5, 2.0);
@@ -452,6 +479,7 @@ impl Walker {
         problem: &mut P,
         from: &Place,
         to: &Place,
+        whole: (&Place, &Place),
         depth: usize,
     ) -> Result<Vec<Special>, ()> {
         let turned = from.tangent.parameter * to.tangent.parameter < 0.0;
@@ -460,18 +488,19 @@ impl Walker {
             (Some(a), Some(b)) => Some(a.abs_diff(b)),
             _ => None,
         };
-        let bracket = || Bracket {
-            before: &from.point,
-            after: &to.point,
-            tangent: &from.tangent,
-            index: [from.index, to.index],
+        // Where the count is made on another mesh than det J, it may change a little aside; the ends of the whole step then say how it
+        // changes.
+        let index = match change {
+            Some(0) => [whole.0.index, whole.1.index],
+            _ => [from.index, to.index],
         };
+        let bracket = || Bracket { before: &from.point, after: &to.point, tangent: &from.tangent, index };
         let found = match (flipped, turned, change) {
-            (false, false, None | Some(0)) => return Ok(Vec::new()),
-            (true, true, None | Some(1)) => locate(problem, &bracket(), true),
-            (true, false, None | Some(1)) => locate(problem, &bracket(), false),
+            (false, false, None | Some(0 | 1)) => return Ok(Vec::new()),
+            (true, true, None | Some(0 | 1)) => locate(problem, &bracket(), true),
+            (true, false, None | Some(0 | 1)) => locate(problem, &bracket(), false),
             // The side branch of a pitchfork turns back where it meets the other.
-            (false, true, None | Some(0)) => locate(problem, &bracket(), false),
+            (false, true, None | Some(0 | 1)) => locate(problem, &bracket(), false),
             (_, _, Some(count)) if depth == 0 && count > 1 => {
                 let tolerance = self.options.tolerance;
                 let length = to.arc - from.arc;
@@ -488,8 +517,8 @@ impl Walker {
         }
         // Not in the middle, where symmetry likes to put what is sought.
         let middle = self.place_between(problem, from, to, 0.47).map_err(|_| ())?;
-        let mut all = self.passed(problem, from, &middle, depth - 1)?;
-        all.extend(self.passed(problem, &middle, to, depth - 1)?);
+        let mut all = self.passed(problem, from, &middle, whole, depth - 1)?;
+        all.extend(self.passed(problem, &middle, to, whole, depth - 1)?);
         Ok(all)
     }
 
@@ -508,7 +537,7 @@ impl Walker {
         problem.system().retract(&step);
         let parameters = from.point.parameters;
         problem.set_parameters([parameters[0] + part * whole.parameter, parameters[1]])?;
-        let limits = Limits { tolerance: self.options.tolerance, farthest: 0.5, reach };
+        let limits = Limits { tolerance: self.options.tolerance, farthest: 0.5, reach, renewed_below: 0.0 };
         correct(problem, &to.tangent, None, &limits)?;
         problem.system().linearise()?;
         let (slope, mut tangent) = direction_here(problem)?;
@@ -544,11 +573,14 @@ fn largest<S: flexura_nonlinear::Liftable>(system: &S, tangent: &Tangent, option
 /// The slope of the state and the unit direction of the path, with the tangent of the present point.
 fn direction_here<P: Problem>(problem: &mut P) -> Result<(Vec<f64>, Tangent), Refusal> {
     let slope = slope(problem, 0)?;
-    let tangent = Tangent { step: slope.clone(), parameter: 1.0 }.normalised(problem.system());
-    if !tangent.parameter.is_finite() {
-        return Err(Refusal::Broken(Breakdown::NotFinite));
-    }
+    let tangent = direction(problem.system(), &slope).ok_or(Refusal::Broken(Breakdown::NotFinite))?;
     Ok((slope, tangent))
+}
+
+/// The unit direction of a path whose state has this slope.
+fn direction<S: flexura_nonlinear::Liftable>(system: &S, slope: &[f64]) -> Option<Tangent> {
+    let tangent = Tangent { step: slope.to_vec(), parameter: 1.0 }.normalised(system);
+    tangent.parameter.is_finite().then_some(tangent)
 }
 
 /// The first point of a branch beyond its branch point.
@@ -565,7 +597,8 @@ pub(crate) fn first_point<P: Problem>(
     problem.system().retract(&step);
     let parameters = from.parameters;
     problem.set_parameters([parameters[0] + width * tangent.parameter, parameters[1]])?;
-    let limits = Limits { tolerance: options.tolerance, farthest: options.farthest, reach };
+    let limits =
+        Limits { tolerance: options.tolerance, farthest: options.farthest, reach, renewed_below: 0.0 };
     correct(problem, tangent, None, &limits)?;
     let point = Point::here(problem);
     let gone = between(problem, from, &point);

@@ -593,5 +593,6 @@ impl Liftable for Equilibrium {
         self.gaps.iter_mut().flatten().for_each(|gap| *gap = [0.0; BLOCK]);
         self.r[row] = -1.0;
         self.newton_step(step);
+        self.counts.newton_steps -= 1;
     }
 }

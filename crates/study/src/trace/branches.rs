@@ -128,7 +128,7 @@ pub fn trace(
 /// Samples of all beams together, and of each at least, in a state that is kept.
 const MOST_SAMPLES: usize = 20_000;
 const FEWEST_SAMPLES: usize = 5;
-const KEPT_SAMPLES: usize = 41;
+const KEPT_SAMPLES: usize = 31;
 
 /// The path's own limits.
 pub(crate) fn walk_options(follower: &Follower<'_>) -> WalkOptions {
@@ -193,7 +193,7 @@ pub(crate) fn from_here(
 
 /// Makes a mesh on which the present equilibrium has the wanted accuracy; the parameters stay.
 fn mesh(traced: &mut Traced<'_>, tolerance: f64) {
-    let mut accuracy = tolerance * FINER;
+    let mut accuracy = (tolerance * FINER).min(SYMMETRIC);
     for _ in 0..MESHES {
         traced.refine(accuracy);
         traced.problem().weigh();
@@ -210,6 +210,10 @@ fn mesh(traced: &mut Traced<'_>, tolerance: f64) {
         accuracy *= (0.3 * tolerance / error).clamp(1e-4, 0.5);
     }
 }
+
+/// Accuracy of a mesh at least, whatever the tolerance: its error breaks symmetries, and what unfolds a branch point by ε moves paths near by
+/// by ε to the power 1/3.
+const SYMMETRIC: f64 = 2e-11;
 
 /// Most meshes that are tried at the start of a branch.
 const MESHES: usize = 6;

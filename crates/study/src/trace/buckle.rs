@@ -23,6 +23,8 @@ const CHANGE: f64 = 1e-2;
 /// By how much more the wrenches change where the shape is kept: the second variation is all but linear in them, and round-off in
 /// stiff directions would tell in a small difference.
 const STRESS: f64 = 30.0;
+/// Estimated error, as a part of the value, beyond which a value is none.
+const UNSURE: f64 = 0.1;
 /// Steps of the load to a fraction of it.
 const LOAD_STEPS: usize = 20;
 
@@ -80,6 +82,7 @@ pub fn buckle(
     let wanted = study.count.max(1);
     let mut levels: Vec<Vec<f64>> = Vec::with_capacity(PARTS.len());
     let mut modes = Vec::new();
+    let mut unsure = 0;
     for parts in PARTS {
         let mut pencil = prepared.pencil(family, study, parts).map_err(|error| match error {
             Failure::Breakdown(breakdown) => critical(breakdown),
@@ -94,6 +97,10 @@ pub fn buckle(
         if levels.len() + 1 == PARTS.len() {
             for (i, (value, x)) in found.iter().enumerate() {
                 let (value, error_estimate) = romberg(&levels, i, *value);
+                if error_estimate > UNSURE * value.abs() {
+                    unsure += 1;
+                    continue;
+                }
                 let step = prepared.problem.step_of(&pencil.base, x);
                 let direction = reader.direction(&mut prepared.problem, &step);
                 modes.push(BucklingMode { value: study.at + value, error_estimate, direction });
@@ -101,7 +108,12 @@ pub fn buckle(
         }
         levels.push(found.into_iter().map(|(value, _)| value).collect());
     }
-    if modes.len() < wanted {
+    if unsure > 0 {
+        solution.warnings.push(format!(
+            "{unsure} critical values are left out, for they change by more than a tenth when beams are cut into more stretches; trace the \
+             parameter instead"
+        ));
+    } else if modes.len() < wanted {
         solution.warnings.push(format!("only {} critical values were found", modes.len()));
     }
     Ok(Buckling { parameter: study.parameter, at: study.at, solution, modes })

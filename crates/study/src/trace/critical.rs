@@ -135,5 +135,7 @@ fn report(
         solution: None,
         directions: Vec::new(),
     };
+    // The ends of the range are met exactly.
+    let second = if (second - second.round()).abs() <= 1e-11 { second.round() } else { second };
     (traced.axes[1].value(second), point)
 }

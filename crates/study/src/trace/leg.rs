@@ -50,9 +50,11 @@ pub(crate) struct Follower<'s> {
 }
 
 /// Regular points between two whose whole state is kept.
-const KEPT: usize = 5;
+const KEPT: usize = 8;
 /// A parameter that lies outside its range by so little is at its end.
 const EDGE: f64 = 1e-9;
+/// The same where nothing can be had at the end itself.
+const ARRIVED: f64 = 1e-6;
 /// Most tries to find where a quantity has a value.
 const TRIES: usize = 60;
 /// Accuracy of a mesh beside the tolerance, to begin with.
@@ -97,6 +99,7 @@ impl Follower<'_> {
         };
         let mut before = self.read(traced, walker);
         let mut start = walker.here().clone();
+        let from_start = matches!(first, First::Start);
         let mut point =
             regular(traced.axes[0].value(start.point.parameters[0]), &start, before.clone(), error);
         match first {
@@ -126,7 +129,7 @@ impl Follower<'_> {
                 Advance::To(specials) => specials,
                 Advance::Stalled(stall) => {
                     self.close(traced, walker, leg);
-                    return stalled(&stall);
+                    return self.end_at(traced, leg, &stall);
                 }
             };
             steps += 1;
@@ -138,7 +141,7 @@ impl Follower<'_> {
                     Ok(place) => Some(place),
                     Err(stall) => {
                         self.close(traced, walker, leg);
-                        return stalled(&stall);
+                        return self.end_at(traced, leg, &stall);
                     }
                 }
             } else {
@@ -171,7 +174,12 @@ impl Follower<'_> {
                 passed.push((part, Passed::Watched(watched, place)));
             }
             passed.sort_by(|a, b| a.0.total_cmp(&b.0));
-            for (_, passed) in passed {
+            let mut last_part = None;
+            for (part, passed) in passed {
+                if let Some(before) = last_part.replace(part) {
+                    // A regular point between two others tells what each of them changes.
+                    self.report_between(traced, walker, 0.5 * (before + part), error, leg);
+                }
                 if self.report(traced, walker, passed, error, leg) {
                     return BranchEnd::Stop;
                 }
@@ -186,8 +194,15 @@ impl Follower<'_> {
             }
             let here = walker.here().clone();
             if steps > 3 && walker.passes(traced, &start.point, &start.tangent) {
-                if let Some(point) = leg.points.first().cloned() {
-                    leg.points.push(TracePoint { arc: here.arc, ..point });
+                if from_start {
+                    if let Some(point) = leg.points.first().cloned() {
+                        leg.points.push(TracePoint { arc: here.arc, ..point });
+                    }
+                } else {
+                    // The loop has come back to the branch point behind which the leg began.
+                    while leg.points.last().is_some_and(|point| point.kind == PointKind::Regular) {
+                        leg.points.pop();
+                    }
                 }
                 return BranchEnd::Closed;
             }
@@ -213,6 +228,14 @@ impl Follower<'_> {
                 return stalled(&Stall::Short);
             }
         }
+    }
+
+    /// Why a leg ends that cannot go on: at the very end of the range there may be no regular point, for a load that goes to nothing can
+    /// leave something free.
+    fn end_at(&self, traced: &Traced<'_>, leg: &Leg, stall: &Stall) -> BranchEnd {
+        let at = leg.points.last().map_or(0.5, |point| traced.axes[0].scaled(point.parameter));
+        let arrived = leg.points.len() > 1 && at.abs().min((at - 1.0).abs()) <= ARRIVED;
+        if arrived { BranchEnd::Range } else { stalled(stall) }
     }
 
     /// The mesh follows the forces.
@@ -285,8 +308,8 @@ impl Follower<'_> {
         let mut found = Vec::new();
         for (i, pair) in before.left.iter().zip(&after.left).enumerate() {
             let (Some(a), Some(b)) = pair else { continue };
-            // Zero at the start of a step was seen at the end of the one before.
-            if (a * b >= 0.0 && *b != 0.0) || *a == 0.0 {
+            // Zero at the start of a step, up to round-off, was seen at the end of the one before.
+            if (a * b >= 0.0 && *b != 0.0) || a.abs() <= 1e-12 * b.abs() {
                 continue;
             }
             if let Some(place) = self.zero(traced, walker, i, (*a, *b), whole) {
@@ -414,6 +437,23 @@ impl Follower<'_> {
             }
         }
         error
+    }
+
+    /// Reports the regular point at a part of the last step.
+    fn report_between(
+        &self,
+        traced: &mut Traced<'_>,
+        walker: &mut Walker,
+        part: f64,
+        error: f64,
+        leg: &mut Leg,
+    ) {
+        if let Ok(place) = walker.between(traced, part) {
+            let reading = self.read(traced, walker);
+            let value = traced.axes[0].value(place.point.parameters[0]);
+            leg.points
+                .push(TracePoint { arc: walker.arc_at(part), ..regular(value, &place, reading, error) });
+        }
     }
 
     /// Is the last point of the leg one at which it is to stop?
