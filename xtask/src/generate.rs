@@ -17,11 +17,14 @@ use crate::step::{Outcome, Step, files, read, root, target};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Pictures: name, and the arguments of the solve that draws it.
-const PICTURES: &[(&str, &[&str])] = &[
-    ("compression_spring", &["models/compression_spring.toml", "--set", "push=5 N"]),
-    ("four_bar", &["models/four_bar.toml"]),
-    ("half_ring", &["models/half_ring.toml", "--set", "theta=60 deg"]),
+/// Pictures: name, which of the files that are written it is, and the arguments of the command that draws it.
+const PICTURES: &[(&str, &str, &[&str])] = &[
+    ("compression_spring", "shape.svg", &["solve", "models/compression_spring.toml", "--set", "push=5 N"]),
+    ("four_bar", "shape.svg", &["solve", "models/four_bar.toml"]),
+    ("half_ring", "shape.svg", &["solve", "models/half_ring.toml", "--set", "theta=60 deg"]),
+    ("lee_frame", "path/diagram.svg", &["run", "models/lee_frame.toml", "path"]),
+    ("lee_frame_shapes", "path/shapes.svg", &["run", "models/lee_frame.toml", "path"]),
+    ("strip_on_slope", "fold/diagram.svg", &["run", "models/strip_on_slope.toml", "fold"]),
 ];
 
 /// The commands that the reference page of the command line describes.
@@ -47,12 +50,12 @@ pub fn write() -> Outcome {
             put(&path, &text)?;
         }
     }
-    for (name, arguments) in PICTURES {
+    for (name, file, arguments) in PICTURES {
         let folder = target().join("pictures").join(name);
         let mut command = flexura();
-        command.arg("solve").args(*arguments).arg("--quiet").arg("-o").arg(&folder);
+        command.args(*arguments).arg("--quiet").arg("-o").arg(&folder);
         answer(command)?;
-        put(&root().join(format!("docs/images/{name}.svg")), &read(&folder.join("shape.svg"))?)?;
+        put(&root().join(format!("docs/images/{name}.svg")), &read(&folder.join(file))?)?;
     }
     Ok(())
 }
