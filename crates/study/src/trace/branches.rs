@@ -6,7 +6,7 @@ use super::record::Reader;
 use super::{TraceProgress, critical, search};
 use crate::{Family, Options, Prepared, ProblemError};
 use flexura_continuation::{Problem, Refusal, WalkOptions, Walker};
-use flexura_model::{Model, Stop, TraceStudy};
+use flexura_model::{Model, Stop, StudyKind, TraceStudy};
 use flexura_nonlinear::{NewtonOptions, System, converge};
 use flexura_solution::{Branch, BranchEnd, BranchOrigin, Crossing, PointKind, Status, Trace, TraceWork};
 use std::collections::VecDeque;
@@ -45,21 +45,8 @@ pub fn trace(
     options: &Options,
     progress: &mut dyn FnMut(TraceProgress),
 ) -> Result<Trace, ProblemError> {
-    if !model.unknowns.is_empty() {
-        return Err(ProblemError::new(
-            "unknown",
-            "an inverse problem cannot be traced: its parameters are found at every point",
-            "leave out [unknown] and [target], and trace the parameter itself",
-        ));
-    }
+    super::check_study(model, StudyKind::Trace(study.clone()))?;
     let span = study.range[1] - study.range[0];
-    if !(span.is_finite() && span != 0.0) {
-        return Err(ProblemError::new(
-            "study",
-            format!("the range from {} to {} has no extent", study.range[0], study.range[1]),
-            "give two different values",
-        ));
-    }
     let axis = Axis { parameter: study.parameter, origin: study.range[0], span };
     let mut watched = study.events.clone();
     watched.extend(study.stops.iter().filter_map(|stop| match stop {

@@ -12,7 +12,7 @@ use super::ritz;
 use crate::family::{SMALL, size_of};
 use crate::{Family, Options, Prepared, ProblemError};
 use flexura_equilibrium::{Rate, Variation};
-use flexura_model::{BuckleStudy, Model};
+use flexura_model::{BuckleStudy, Model, StudyKind};
 use flexura_nonlinear::{Breakdown, NewtonEnd, NewtonOptions, System, converge};
 use flexura_solution::{Buckling, BucklingMode, Status};
 
@@ -39,9 +39,13 @@ pub fn buckle(
     study: &BuckleStudy,
     options: &Options,
 ) -> Result<Buckling, ProblemError> {
+    super::check_study(model, StudyKind::Buckle(*study))?;
     let wrong = |why: String, hint: &str| ProblemError::new("study", why, hint);
     let base = match study.parameter {
-        Some(parameter) => family.model(&[(parameter, study.at)])?,
+        Some(parameter) => family.model(&[(parameter, study.at)]).map_err(|error| ProblemError {
+            hint: "choose `at` (`--at`): the value about which the problem is linearised".to_string(),
+            ..error
+        })?,
         None => model.clone(),
     };
     let mut prepared = Prepared::new(&base)?;
