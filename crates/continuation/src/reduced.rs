@@ -11,7 +11,7 @@
 //! ```
 
 use crate::corrector::Miss;
-use crate::problem::{Point, Problem, slope};
+use crate::problem::{Point, Problem, central_slope, slope};
 use flexura_nonlinear::{Breakdown, Lift, Liftable, System};
 
 /// μ, its first derivatives and those of the state, at a point of the surface.
@@ -148,8 +148,14 @@ impl Surface {
             point: Point::here(problem),
         };
         for which in 0..if self.both { 2 } else { 1 } {
-            problem.system().residual()?;
-            let mut v = slope(problem, which)?;
+            let mut v = match central_slope(problem, which) {
+                Ok(v) => v,
+                // At the end of what a parameter may be, one side must do.
+                Err(_) => {
+                    problem.system().residual()?;
+                    slope(problem, which)?
+                }
+            };
             let top = v[column];
             value.slope[1 + which] = top / scale;
             v.iter_mut().zip(&value.along[0]).for_each(|(v, x)| *v -= x * top);

@@ -242,6 +242,8 @@ impl Follower<'_> {
 
     /// The mesh follows the forces.
     fn renew(&mut self, traced: &mut Traced<'_>, walker: &mut Walker) -> Result<(), Stall> {
+        // Events have led away from the point.
+        walker.here().point.restore(traced).map_err(|_| Stall::Short)?;
         traced.problem().weigh();
         let tangent = traced.renew(&walker.here().tangent);
         if tangent.is_some() {
