@@ -33,6 +33,10 @@ pub(crate) struct Surface {
     pub both: bool,
 }
 
+/// Steps of inverse iteration.
+const ITERATIONS: usize = 8;
+/// How much more it counts that a solution is all null direction than that it is large.
+const SHARE: i32 = 4;
 /// Rows that are tried as the lifted one.
 const TRIED: usize = 48;
 const MOST: usize = 12;
@@ -50,18 +54,22 @@ impl Surface {
         let columns = system.lift_columns();
         let mut step = vec![0.0; system.unknowns()];
         if system.linearise().is_ok() {
-            // Near the critical point every solution is mostly null vector, and most of all those of the rows that the left null
-            // vector sees.
-            let mut best = (0.0, Lift { row: 0, column: 0 });
+            let null = null_direction(system, &mut step);
+            let size = |column: usize, step: &[f64]| step[column].abs() * unit_size(system, column);
+            let column = (0..columns).max_by(|a, b| size(*a, &null).total_cmp(&size(*b, &null)))?;
+            // The row whose solution is most of all that direction: what other rows move a lot may be stiff, not critical.
+            let mut best = (0.0, rows.first().copied()?);
+            let length = system.product(&null, &null);
             for &row in rows.iter().step_by(rows.len().div_ceil(TRIED).max(1)) {
                 system.unit_step(row, &mut step);
-                for (column, value) in step[..columns].iter().enumerate() {
-                    if value.abs() > best.0 {
-                        best = (value.abs(), Lift { row, column });
-                    }
+                let along = system.product(&null, &step) / length;
+                let share = along * along * length / system.product(&step, &step);
+                let value = if share.is_nan() { 0.0 } else { share.powi(SHARE) * along.abs() };
+                if value > best.0 {
+                    best = (value, row);
                 }
             }
-            return (best.0 > 0.0).then_some(Self { lift: best.1, both });
+            return (best.0 > 0.0).then_some(Self { lift: Lift { row: best.1, column }, both });
         }
         // At the very point: any lift that makes the tangent regular shows both null vectors.
         for &row in &rows {
@@ -179,4 +187,22 @@ impl Surface {
         problem.set_parameters([parameters[0] + way[1], parameters[1] + way[2]])?;
         self.settle(problem)
     }
+}
+
+/// The direction in which the tangent gives way most, by inverse iteration.
+fn null_direction<S: Liftable>(system: &mut S, step: &mut [f64]) -> Vec<f64> {
+    let mut x: Vec<f64> = (0..step.len()).map(|i| 1.0 + (1.7 * i as f64).sin()).collect();
+    for _ in 0..ITERATIONS {
+        system.inverse_step(&x, step);
+        let length = system.product(step, step).sqrt();
+        x.iter_mut().zip(&*step).for_each(|(x, s)| *x = s / length);
+    }
+    x
+}
+
+/// The size of a step that changes one unknown by one.
+fn unit_size<S: Liftable>(system: &S, column: usize) -> f64 {
+    let mut unit = vec![0.0; system.unknowns()];
+    unit[column] = 1.0;
+    system.size(&unit)
 }
