@@ -106,7 +106,10 @@ pub struct Walker {
 }
 
 /// Size of a correction below which a step's tangent is made anew: what is left to correct then is nothing to the tangent.
-const LATE: f64 = 1e-3;
+const LATE: f64 = 1e-4;
+
+/// Rate of the parameter along the path below which a fold may be near.
+const FLAT: f64 = 0.05;
 
 /// How often the way between two points is halved at most, to tell apart what lies on it.
 const DEPTH: usize = 9;
@@ -274,7 +277,12 @@ impl Walker {
             }
             let width = self.width;
             match self.try_step(problem, width) {
-                Ok((place, growth)) => {
+                Ok((mut place, growth)) => {
+                    if self.may_hold(&place) && self.exactly(problem, &mut place).is_err() {
+                        self.width = 0.7 * width;
+                        self.work.refused += 1;
+                        continue;
+                    }
                     match self.passed(problem, &self.here, &place, (&self.here, &place), DEPTH) {
                         Ok(specials) => {
                             let left = std::mem::replace(&mut self.here, place);
@@ -390,6 +398,30 @@ impl Walker {
         let same_way = tangent.step.len() == left.tangent.step.len()
             && left.tangent.product(system, &tangent.step, tangent.parameter) > 0.5;
         same_way && along > 0.0 && along <= 1.05 * width && aside <= 0.25 * width
+    }
+
+    /// May something lie between the present point and the next, by what is known of both?
+    fn may_hold(&self, next: &Place) -> bool {
+        let here = &self.here;
+        let near = |place: &Place| place.tangent.parameter.abs() < FLAT;
+        here.positive != next.positive
+            || here.tangent.parameter * next.tangent.parameter < 0.0
+            || here.index != next.index
+            || near(here)
+            || near(next)
+    }
+
+    /// Makes tangent, direction and orientation anew at a point, where those at hand are of a state before its last correction.
+    fn exactly<P: Problem>(&self, problem: &mut P, place: &mut Place) -> Result<(), Refusal> {
+        place.point.restore(problem)?;
+        problem.system().linearise()?;
+        let (slope, mut tangent) = direction_here(problem)?;
+        if tangent.product(problem.system(), &place.tangent.step, place.tangent.parameter) < 0.0 {
+            tangent.scale(-1.0);
+        }
+        place.positive = problem.system().orientation();
+        (place.slope, place.tangent) = (slope, tangent);
+        place.point.restore(problem)
     }
 
     fn try_step<P: Problem>(&mut self, problem: &mut P, width: f64) -> Result<(Place, f64), (Miss, f64)> {

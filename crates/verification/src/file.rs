@@ -8,7 +8,7 @@ use flexura_solution::Status;
 
 /// A model file, with what a case adds to it.
 pub struct File {
-    document: Document,
+    pub(crate) document: Document,
 }
 
 /// A solved file.
@@ -40,8 +40,7 @@ impl File {
     /// # Errors
     /// As [`File::solve`].
     pub fn solve_with(&self, values: &[(&str, f64)], options: &Options) -> Result<Answer, String> {
-        let overrides: Vec<(String, String)> =
-            values.iter().map(|(name, value)| ((*name).to_string(), format!("{value:e}"))).collect();
+        let overrides = Self::overrides(values);
         let model = self.document.model(&overrides).map_err(|report| report.render(false))?;
         let mut family = FileFamily::new(&self.document, &overrides, &model);
         let (solution, model) =
@@ -52,6 +51,11 @@ impl File {
         }
         let evaluation = post::evaluate(&model, &solution).map_err(|error| error.to_string())?;
         Ok(Answer { model, evaluation })
+    }
+
+    /// Parameters as the file has them.
+    pub(crate) fn overrides(values: &[(&str, f64)]) -> Vec<(String, String)> {
+        values.iter().map(|(name, value)| ((*name).to_string(), format!("{value:e}"))).collect()
     }
 }
 

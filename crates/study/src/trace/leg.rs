@@ -47,6 +47,8 @@ pub(crate) struct Follower<'s> {
     pub progress: &'s mut dyn FnMut(TraceProgress),
     /// Number of the branch, for progress.
     pub branch: usize,
+    /// Events and stops that were seen to be passed but could not be placed.
+    pub missed: std::cell::Cell<usize>,
 }
 
 /// Regular points between two whose whole state is kept.
@@ -312,8 +314,9 @@ impl Follower<'_> {
             if (a * b >= 0.0 && *b != 0.0) || a.abs() <= 1e-12 * b.abs() {
                 continue;
             }
-            if let Some(place) = self.zero(traced, walker, i, (*a, *b), whole) {
-                found.push((i, place));
+            match self.zero(traced, walker, i, (*a, *b), whole) {
+                Some(place) => found.push((i, place)),
+                None => self.missed.set(self.missed.get() + 1),
             }
         }
         found
@@ -334,7 +337,9 @@ impl Follower<'_> {
         let mut best = None;
         for _ in 0..TRIES {
             let part = (a * fb - b * fa) / (fb - fa);
-            walker.glance(traced, part).ok()?;
+            if walker.glance(traced, part).is_err() {
+                walker.between(traced, part).ok()?;
+            }
             let f = self.read(traced, walker).left[which]?;
             best = Some(part);
             if f.abs() <= 1e-13 * size || (b - a).abs() < 1e-13 {
