@@ -18,12 +18,14 @@ pub struct Answer {
 }
 
 impl File {
-    /// From the text of a model file.
+    /// From the text of a model file, without its studies: a case says itself what is done, with values that these need not
+    /// allow.
     ///
     /// # Errors
     /// The text is wrong.
     pub fn new(text: &str) -> Result<Self, String> {
-        let document = Document::parse(text, "model.toml").map_err(|report| report.render(false))?;
+        let document =
+            Document::parse(&without_studies(text), "model.toml").map_err(|report| report.render(false))?;
         Ok(Self { document })
     }
 
@@ -84,6 +86,18 @@ impl Answer {
     fn output(&self, name: &str) -> Option<OutputValue> {
         self.evaluation.outputs.iter().find(|output| output.name == name).map(|output| output.value)
     }
+}
+
+/// The text without the tables that describe studies.
+fn without_studies(text: &str) -> String {
+    let mut kept = true;
+    let lines = text.lines().filter(|line| {
+        if line.starts_with('[') {
+            kept = !line.starts_with("[study.");
+        }
+        kept
+    });
+    lines.flat_map(|line| [line, "\n"]).collect()
 }
 
 /// A file with an inverse problem added: parameters with their guesses, outputs with the values wanted.
