@@ -240,7 +240,7 @@ fn refusal(kind: &str, typed: &[(&'static str, &str)]) -> String {
 fn a_mistake_in_a_flag_is_shown_where_it_was_typed() {
     let shown = refusal("trace", &[("parameter", "pusch"), ("range", "0 N:40 N")]);
     let expected = "error: there is no parameter `pusch`\n\
-                    --> command line:1:13\n  |\n1 | --parameter pusch --range \"0 N:40 N\"\n  |             ^^^^^\n  |\n\
+                    --> command line:1:19\n  |\n1 | trace --parameter pusch --range \"0 N:40 N\"\n  |                   ^^^^^\n  |\n\
                     \x20 = help: did you mean `push`?\n";
     assert_eq!(shown.replace("\n ", "\n"), expected.replace("\n ", "\n"));
 
