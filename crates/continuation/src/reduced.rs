@@ -25,6 +25,15 @@ pub(crate) struct Value {
     pub point: Point,
 }
 
+/// How a lift is chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Choice {
+    /// By the largest entry of the tangent's inverse.
+    Largest,
+    /// By the direction that gives way most, in the measure of the unknowns: where stiff parts have large entries, too.
+    Null,
+}
+
 /// The surface of one lift.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Surface {
@@ -47,29 +56,43 @@ const ROUND_OFF: f64 = 1e-9;
 impl Surface {
     /// Chooses row and column from the tangent at the present point, which should be near a critical one. None if no lift makes
     /// the tangent regular.
-    pub fn choose<P: Problem>(problem: &mut P, both: bool) -> Option<Self> {
+    pub fn choose<P: Problem>(problem: &mut P, both: bool, by: Choice) -> Option<Self> {
         let system = problem.system();
         system.set_lift(None);
         let rows = system.lift_rows();
         let columns = system.lift_columns();
         let mut step = vec![0.0; system.unknowns()];
         if system.linearise().is_ok() {
+            let mut best = (0.0, Lift { row: 0, column: 0 });
+            let tried = rows.iter().step_by(rows.len().div_ceil(TRIED).max(1));
+            if by == Choice::Largest {
+                // Near the critical point every solution is mostly null vector, and most of all those of the rows that the left null
+                // vector sees.
+                for &row in tried {
+                    system.unit_step(row, &mut step);
+                    for (column, value) in step[..columns].iter().enumerate() {
+                        if value.abs() > best.0 {
+                            best = (value.abs(), Lift { row, column });
+                        }
+                    }
+                }
+                return (best.0 > 0.0).then_some(Self { lift: best.1, both });
+            }
             let null = null_direction(system, &mut step);
             let size = |column: usize, step: &[f64]| step[column].abs() * unit_size(system, column);
             let column = (0..columns).max_by(|a, b| size(*a, &null).total_cmp(&size(*b, &null)))?;
             // The row whose solution is most of all that direction: what other rows move a lot may be stiff, not critical.
-            let mut best = (0.0, rows.first().copied()?);
             let length = system.product(&null, &null);
-            for &row in rows.iter().step_by(rows.len().div_ceil(TRIED).max(1)) {
+            for &row in tried {
                 system.unit_step(row, &mut step);
                 let along = system.product(&null, &step) / length;
                 let share = along * along * length / system.product(&step, &step);
                 let value = if share.is_nan() { 0.0 } else { share.powi(SHARE) * along.abs() };
                 if value > best.0 {
-                    best = (value, row);
+                    best = (value, Lift { row, column });
                 }
             }
-            return (best.0 > 0.0).then_some(Self { lift: Lift { row: best.1, column }, both });
+            return (best.0 > 0.0).then_some(Self { lift: best.1, both });
         }
         // At the very point: any lift that makes the tangent regular shows both null vectors.
         for &row in &rows {

@@ -28,10 +28,7 @@ impl Model {
     pub(super) fn check_studies(&self, issues: &mut Issues) {
         issues.names("study", self.studies.iter().map(|study| study.name.as_str()));
         for study in &self.studies {
-            // That an inverse problem cannot be traced is told where it is: it can be solved all the same.
-            issues
-                .0
-                .extend(self.study_issues(study).into_iter().filter(|issue| !issue.path.ends_with(".kind")));
+            issues.0.extend(self.study_issues(study));
         }
     }
 
