@@ -5,7 +5,7 @@ use flexura_model::*;
 use flexura_nonlinear::System;
 use flexura_spatial::{Matrix3, Pose, Vector3, exp};
 
-fn section(name: &str, factor: f64) -> Section {
+pub(crate) fn section(name: &str, factor: f64) -> Section {
     let p = |v: f64| Profile::Constant(v * factor);
     Section {
         name: name.into(),
@@ -22,7 +22,7 @@ fn section(name: &str, factor: f64) -> Section {
     }
 }
 
-fn beam(name: &str, start: Option<End>, end: Option<End>) -> Beam {
+pub(crate) fn beam(name: &str, start: Option<End>, end: Option<End>) -> Beam {
     Beam {
         name: name.into(),
         material: None,
@@ -36,7 +36,7 @@ fn beam(name: &str, start: Option<End>, end: Option<End>) -> Beam {
     }
 }
 
-fn end(body: Mount, placement: Option<Pose>, kind: JointKind, stiffness: f64) -> End {
+pub(crate) fn end(body: Mount, placement: Option<Pose>, kind: JointKind, stiffness: f64) -> End {
     let mut hold = JointLaw::free(kind, Vector3::new(0.6, 0.0, 0.8));
     for c in &mut hold.coordinates {
         c.stiffness = stiffness;
@@ -45,7 +45,7 @@ fn end(body: Mount, placement: Option<Pose>, kind: JointKind, stiffness: f64) ->
     End { mount: body, placement, hold }
 }
 
-fn body(name: &str, position: [f64; 3], turn: [f64; 3]) -> Body {
+pub(crate) fn body(name: &str, position: [f64; 3], turn: [f64; 3]) -> Body {
     Body {
         name: name.into(),
         pose: Pose::new(exp(&Vector3::from(turn)), Vector3::from(position)),
@@ -60,7 +60,7 @@ fn constants(v: [f64; 3]) -> [Profile; 3] {
 }
 
 /// Beams between ground and bodies and free, every joint kind, springs on beams and bodies, all loads.
-fn everything() -> Model {
+pub(crate) fn everything() -> Model {
     let mut m = Model { gravity: Vector3::new(0.3, -0.2, -1.0), ..Model::default() };
     m.sections.push(section("s", 1.0));
     m.bodies.push(body("a", [1.0, 0.4, 0.2], [0.2, -0.4, 0.1]));
@@ -253,7 +253,7 @@ fn add_tubes(m: &mut Model) {
 }
 
 /// A state away from every solution, the same at each call.
-fn disturbed(problem: &mut Equilibrium, size: f64) {
+pub(crate) fn disturbed(problem: &mut Equilibrium, size: f64) {
     problem.set_load(0.7);
     let step: Vec<f64> = (0..problem.unknowns()).map(|i| size * ((3 * i + 1) as f64).sin()).collect();
     problem.retract(&step);

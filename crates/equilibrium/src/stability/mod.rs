@@ -22,6 +22,8 @@
 mod assemble;
 mod mesh;
 mod segment;
+#[cfg(test)]
+mod tests;
 mod undecided;
 mod variation;
 

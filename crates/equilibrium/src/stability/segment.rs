@@ -139,3 +139,6 @@ impl Form {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;
