@@ -186,6 +186,10 @@ impl Follower<'_> {
                     return BranchEnd::Stop;
                 }
             }
+            // What was passed has led away from the point, and forces there are not those here.
+            if last_part.is_some() && walker.here().point.restore(traced).is_ok() {
+                let _ = traced.problem().residual();
+            }
             if let Some(place) = last {
                 let _ = place.point.restore(traced);
                 let mut point = regular(traced.axes[0].value(limit), &place, reading, error);
@@ -378,8 +382,12 @@ impl Follower<'_> {
             Passed::Special(special) => walker.part_of(traced, &special.point),
             Passed::Watched(_, place) => walker.part_of(traced, &place.point),
         };
-        let mesh = traced.problem().mesh_accuracy();
+        let mut mesh = None;
         if let Passed::Special(special) = &mut passed {
+            // The walk goes on with the mesh that it has here.
+            if walker.here().point.restore(traced).is_ok() {
+                mesh = Some(traced.problem().mesh());
+            }
             error = self.sharpened(traced, special);
         }
         let (at, kind, index) = match &passed {
@@ -423,8 +431,10 @@ impl Follower<'_> {
             });
         }
         leg.points.push(point);
-        if traced.problem().mesh_accuracy() != mesh {
-            traced.refine(mesh);
+        if let Some(mesh) = mesh
+            && walker.here().point.restore(traced).is_ok()
+        {
+            traced.put_mesh(mesh);
         }
         self.stops(&passed, leg)
     }
