@@ -5,7 +5,7 @@
 
 use crate::corrector::Miss;
 use crate::problem::{Point, Problem};
-use crate::reduced::{Surface, Value};
+use crate::reduced::{Choice, Surface, Value};
 use flexura_nonlinear::System;
 
 /// Why a curve ends.
@@ -62,7 +62,7 @@ impl CriticalWalker {
         sense: f64,
     ) -> Result<Self, CriticalEnd> {
         at.restore(problem).map_err(|_| CriticalEnd::Short)?;
-        let surface = Surface::choose(problem, true).ok_or(CriticalEnd::Short)?;
+        let surface = Surface::choose(problem, true, Choice::Largest).ok_or(CriticalEnd::Short)?;
         at.restore(problem).map_err(|_| CriticalEnd::Short)?;
         let value = surface.settle(problem).map_err(|_| CriticalEnd::Short)?;
         let mut direction = along(problem, &surface, &value, fold).map_err(|_| CriticalEnd::Short)?;

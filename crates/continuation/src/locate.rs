@@ -3,7 +3,7 @@
 use crate::corrector::{Miss, between};
 use crate::multiple::{From, locate_multiple};
 use crate::problem::{Point, Problem, Tangent};
-use crate::reduced::{Surface, Value};
+use crate::reduced::{Choice, Surface, Value};
 use crate::walker::Stall;
 use flexura_nonlinear::System;
 
@@ -122,15 +122,33 @@ impl Surface {
     }
 }
 
+/// Choices of the lift in the order in which they are tried.
+fn choices(fold: bool) -> [Choice; 2] {
+    if fold { [Choice::Largest, Choice::Null] } else { [Choice::Null, Choice::Largest] }
+}
+
 /// The fold or the simple branch point between two points of a path. None where there is none of that kind.
 pub(crate) fn locate<P: Problem>(
     problem: &mut P,
     bracket: &Bracket<'_>,
     fold: bool,
 ) -> Result<Option<Special>, Miss> {
+    let [first, second] = choices(fold);
+    match locate_by(problem, bracket, fold, first) {
+        Ok(Some(found)) => Ok(Some(found)),
+        _ => locate_by(problem, bracket, fold, second),
+    }
+}
+
+fn locate_by<P: Problem>(
+    problem: &mut P,
+    bracket: &Bracket<'_>,
+    fold: bool,
+    by: Choice,
+) -> Result<Option<Special>, Miss> {
     let whole = between(problem, bracket.before, bracket.after);
     bracket.after.restore(problem)?;
-    let Some(surface) = Surface::choose(problem, false) else { return Ok(None) };
+    let Some(surface) = Surface::choose(problem, false, by) else { return Ok(None) };
     bracket.before.restore(problem)?;
     let first = surface.settle(problem)?;
     bracket.after.restore(problem)?;
@@ -208,7 +226,10 @@ pub fn sharpen<P: Problem>(problem: &mut P, special: &Special) -> Result<Special
             let from = From { point, tangent, length: *length, tolerance: *tolerance };
             locate_multiple(problem, &from, special.kernel.len())
         }
-        None => again(problem, special),
+        None => match again(problem, special, choices(special.crossing.is_none())[0]) {
+            Ok(Some(found)) => Ok(Some(found)),
+            _ => again(problem, special, choices(special.crossing.is_none())[1]),
+        },
     };
     match found {
         Ok(Some(found)) => Ok(Special { part: special.part, ..found }),
@@ -216,10 +237,10 @@ pub fn sharpen<P: Problem>(problem: &mut P, special: &Special) -> Result<Special
     }
 }
 
-fn again<P: Problem>(problem: &mut P, special: &Special) -> Result<Option<Special>, Miss> {
+fn again<P: Problem>(problem: &mut P, special: &Special, by: Choice) -> Result<Option<Special>, Miss> {
     let fold = special.crossing.is_none();
     special.point.restore(problem)?;
-    let Some(surface) = Surface::choose(problem, false) else { return Ok(None) };
+    let Some(surface) = Surface::choose(problem, false, by) else { return Ok(None) };
     special.point.restore(problem)?;
     let value = surface.settle(problem)?;
     let Some(shape) = solve(problem, &surface, value, fold, (&special.point, NEAR))? else { return Ok(None) };
@@ -274,7 +295,8 @@ fn finish<P: Problem>(
     let system = problem.system();
     let square = whole.product(system, &whole.step, whole.parameter);
     let part = whole.product(system, &gone.step, gone.parameter) / square;
-    if !(-0.25..=1.25).contains(&part) {
+    // What lies beyond belongs to another step.
+    if !(-0.02..=1.02).contains(&part) {
         return Ok(None);
     }
     let kernel = vec![value.along[0].clone()];

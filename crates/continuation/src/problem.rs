@@ -103,8 +103,11 @@ impl Tangent {
     }
 }
 
-/// Relative step of the one-sided difference that gives the derivative along a parameter. It only points the way.
-const DIFFERENCE: f64 = 1e-5;
+/// Step of the one-sided difference that gives the derivative along a parameter where it only points the way; short, for what a drive
+/// does to stiff beams is far from linear.
+const DIFFERENCE: f64 = 1e-7;
+/// Step of the central difference where the derivative itself is wanted.
+const CENTRAL: f64 = 1e-5;
 
 /// `-J⁻¹ ∂r/∂p` along parameter `which`, with the last tangent, at the present state, whose residual must be the system's last one.
 /// Afterwards that is the one of a neighbouring parameter.
@@ -136,4 +139,28 @@ pub fn slope<P: Problem>(problem: &mut P, which: usize) -> Result<Vec<f64>, Refu
         }
     }
     Err(Refusal::Broken(Breakdown::NotFinite))
+}
+
+/// The same by a central difference. The system's residual is that of a neighbouring parameter afterwards.
+///
+/// # Errors
+/// As [`Problem::set_parameters`].
+pub(crate) fn central_slope<P: Problem>(problem: &mut P, which: usize) -> Result<Vec<f64>, Refusal> {
+    let here = problem.parameters();
+    let n = problem.system().unknowns();
+    let point = Point::here(problem);
+    let mut sides = [vec![0.0; n], vec![0.0; n]];
+    for (side, h) in sides.iter_mut().zip([CENTRAL, -CENTRAL]) {
+        let mut there = here;
+        there[which] += h;
+        let outcome = problem.set_parameters(there).and_then(|()| {
+            problem.system().residual()?;
+            problem.system().newton_step(side);
+            Ok(())
+        });
+        point.restore(problem)?;
+        outcome?;
+    }
+    let [up, down] = sides;
+    Ok(up.iter().zip(&down).map(|(up, down)| (up - down) / (2.0 * CENTRAL)).collect())
 }

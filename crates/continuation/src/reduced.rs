@@ -11,7 +11,7 @@
 //! ```
 
 use crate::corrector::Miss;
-use crate::problem::{Point, Problem, slope};
+use crate::problem::{Point, Problem, central_slope, slope};
 use flexura_nonlinear::{Breakdown, Lift, Liftable, System};
 
 /// μ, its first derivatives and those of the state, at a point of the surface.
@@ -25,6 +25,15 @@ pub(crate) struct Value {
     pub point: Point,
 }
 
+/// How a lift is chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Choice {
+    /// By the largest entry of the tangent's inverse.
+    Largest,
+    /// By the direction that gives way most, in the measure of the unknowns: where stiff parts have large entries, too.
+    Null,
+}
+
 /// The surface of one lift.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Surface {
@@ -33,6 +42,10 @@ pub(crate) struct Surface {
     pub both: bool,
 }
 
+/// Steps of inverse iteration.
+const ITERATIONS: usize = 8;
+/// How much more it counts that a solution is all null direction than that it is large.
+const SHARE: i32 = 4;
 /// Rows that are tried as the lifted one.
 const TRIED: usize = 48;
 const MOST: usize = 12;
@@ -43,22 +56,40 @@ const ROUND_OFF: f64 = 1e-9;
 impl Surface {
     /// Chooses row and column from the tangent at the present point, which should be near a critical one. None if no lift makes
     /// the tangent regular.
-    pub fn choose<P: Problem>(problem: &mut P, both: bool) -> Option<Self> {
+    pub fn choose<P: Problem>(problem: &mut P, both: bool, by: Choice) -> Option<Self> {
         let system = problem.system();
         system.set_lift(None);
         let rows = system.lift_rows();
         let columns = system.lift_columns();
         let mut step = vec![0.0; system.unknowns()];
         if system.linearise().is_ok() {
-            // Near the critical point every solution is mostly null vector, and most of all those of the rows that the left null
-            // vector sees.
             let mut best = (0.0, Lift { row: 0, column: 0 });
-            for &row in rows.iter().step_by(rows.len().div_ceil(TRIED).max(1)) {
-                system.unit_step(row, &mut step);
-                for (column, value) in step[..columns].iter().enumerate() {
-                    if value.abs() > best.0 {
-                        best = (value.abs(), Lift { row, column });
+            let tried = rows.iter().step_by(rows.len().div_ceil(TRIED).max(1));
+            if by == Choice::Largest {
+                // Near the critical point every solution is mostly null vector, and most of all those of the rows that the left null
+                // vector sees.
+                for &row in tried {
+                    system.unit_step(row, &mut step);
+                    for (column, value) in step[..columns].iter().enumerate() {
+                        if value.abs() > best.0 {
+                            best = (value.abs(), Lift { row, column });
+                        }
                     }
+                }
+                return (best.0 > 0.0).then_some(Self { lift: best.1, both });
+            }
+            let null = null_direction(system, &mut step);
+            let size = |column: usize, step: &[f64]| step[column].abs() * unit_size(system, column);
+            let column = (0..columns).max_by(|a, b| size(*a, &null).total_cmp(&size(*b, &null)))?;
+            // The row whose solution is most of all that direction: what other rows move a lot may be stiff, not critical.
+            let length = system.product(&null, &null);
+            for &row in tried {
+                system.unit_step(row, &mut step);
+                let along = system.product(&null, &step) / length;
+                let share = along * along * length / system.product(&step, &step);
+                let value = if share.is_nan() { 0.0 } else { share.powi(SHARE) * along.abs() };
+                if value > best.0 {
+                    best = (value, Lift { row, column });
                 }
             }
             return (best.0 > 0.0).then_some(Self { lift: best.1, both });
@@ -148,8 +179,14 @@ impl Surface {
             point: Point::here(problem),
         };
         for which in 0..if self.both { 2 } else { 1 } {
-            problem.system().residual()?;
-            let mut v = slope(problem, which)?;
+            let mut v = match central_slope(problem, which) {
+                Ok(v) => v,
+                // At the end of what a parameter may be, one side must do.
+                Err(_) => {
+                    problem.system().residual()?;
+                    slope(problem, which)?
+                }
+            };
             let top = v[column];
             value.slope[1 + which] = top / scale;
             v.iter_mut().zip(&value.along[0]).for_each(|(v, x)| *v -= x * top);
@@ -173,4 +210,22 @@ impl Surface {
         problem.set_parameters([parameters[0] + way[1], parameters[1] + way[2]])?;
         self.settle(problem)
     }
+}
+
+/// The direction in which the tangent gives way most, by inverse iteration.
+fn null_direction<S: Liftable>(system: &mut S, step: &mut [f64]) -> Vec<f64> {
+    let mut x: Vec<f64> = (0..step.len()).map(|i| 1.0 + (1.7 * i as f64).sin()).collect();
+    for _ in 0..ITERATIONS {
+        system.inverse_step(&x, step);
+        let length = system.product(step, step).sqrt();
+        x.iter_mut().zip(&*step).for_each(|(x, s)| *x = s / length);
+    }
+    x
+}
+
+/// The size of a step that changes one unknown by one.
+fn unit_size<S: Liftable>(system: &S, column: usize) -> f64 {
+    let mut unit = vec![0.0; system.unknowns()];
+    unit[column] = 1.0;
+    system.size(&unit)
 }

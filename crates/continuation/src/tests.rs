@@ -118,6 +118,10 @@ impl Liftable for Small {
         step[row] = 1.0;
         self.dense.solve(step);
     }
+    fn inverse_step(&mut self, x: &[f64], step: &mut [f64]) {
+        step.copy_from_slice(x);
+        self.dense.solve(step);
+    }
 }
 
 impl Problem for Small {

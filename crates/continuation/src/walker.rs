@@ -106,7 +106,10 @@ pub struct Walker {
 }
 
 /// Size of a correction below which a step's tangent is made anew: what is left to correct then is nothing to the tangent.
-const LATE: f64 = 1e-3;
+const LATE: f64 = 1e-4;
+
+/// Rate of the parameter along the path below which a fold may be near.
+const FLAT: f64 = 0.05;
 
 /// How often the way between two points is halved at most, to tell apart what lies on it.
 const DEPTH: usize = 9;
@@ -160,7 +163,8 @@ impl Walker {
         let mut tangent = branch.clone();
         tangent.scale(sense);
         from.restore(problem).map_err(stall)?;
-        let mut width = 0.6 * largest(problem.system(), &tangent, &options);
+        // A short one: what crosses the branch close to its start is not to be stepped over.
+        let mut width = 0.15 * largest(problem.system(), &tangent, &options);
         let mut worst = Stall::Short;
         for _ in 0..14 {
             match first_point(problem, &options, from, &tangent, width) {
@@ -273,7 +277,12 @@ impl Walker {
             }
             let width = self.width;
             match self.try_step(problem, width) {
-                Ok((place, growth)) => {
+                Ok((mut place, growth)) => {
+                    if self.may_hold(&place) && self.exactly(problem, &mut place).is_err() {
+                        self.width = 0.7 * width;
+                        self.work.refused += 1;
+                        continue;
+                    }
                     match self.passed(problem, &self.here, &place, (&self.here, &place), DEPTH) {
                         Ok(specials) => {
                             let left = std::mem::replace(&mut self.here, place);
@@ -391,14 +400,45 @@ impl Walker {
         same_way && along > 0.0 && along <= 1.05 * width && aside <= 0.25 * width
     }
 
-    fn try_step<P: Problem>(&mut self, problem: &mut P, width: f64) -> Result<(Place, f64), (Miss, f64)> {
+    /// May something lie between the present point and the next, by what is known of both?
+    fn may_hold(&self, next: &Place) -> bool {
         let here = &self.here;
-        let restored = here.point.restore(problem).map_err(|refusal| (refusal.into(), 0.3));
-        restored?;
+        let near = |place: &Place| place.tangent.parameter.abs() < FLAT;
+        here.positive != next.positive
+            || here.tangent.parameter * next.tangent.parameter < 0.0
+            || here.index != next.index
+            || near(here)
+            || near(next)
+    }
+
+    /// Makes tangent, direction and orientation anew at a point, where those at hand are of a state before its last correction.
+    fn exactly<P: Problem>(&self, problem: &mut P, place: &mut Place) -> Result<(), Refusal> {
+        place.point.restore(problem)?;
+        problem.system().linearise()?;
+        let (slope, mut tangent) = direction_here(problem)?;
+        if tangent.product(problem.system(), &place.tangent.step, place.tangent.parameter) < 0.0 {
+            tangent.scale(-1.0);
+        }
+        place.positive = problem.system().orientation();
+        (place.slope, place.tangent) = (slope, tangent);
+        place.point.restore(problem)
+    }
+
+    fn try_step<P: Problem>(&mut self, problem: &mut P, width: f64) -> Result<(Place, f64), (Miss, f64)> {
+        self.here.point.restore(problem).map_err(|refusal| (Miss::from(refusal), 0.3))?;
         if !self.is_tangent_here {
-            problem.system().linearise().map_err(|b| (b.into(), 0.3))?;
+            problem.system().linearise().map_err(|b| (Miss::from(b), 0.3))?;
+            // The direction may be that of a tangent from a little before the last correction, which near critical points tells.
+            let (slope, mut tangent) =
+                direction_here(problem).map_err(|refusal| (Miss::from(refusal), 0.3))?;
+            let ahead = &self.here.tangent;
+            if tangent.product(problem.system(), &ahead.step, ahead.parameter) < 0.0 {
+                tangent.scale(-1.0);
+            }
+            (self.here.slope, self.here.tangent) = (slope, tangent);
             self.is_tangent_here = true;
         }
+        let here = &self.here;
         let mut step = here.tangent.clone();
         step.scale(width);
         if let Some((before, gone)) = &self.before

@@ -20,6 +20,15 @@ const POLISHES: usize = 10;
 /// Refinements before the wanted accuracy is given up.
 const REFINEMENTS: usize = 12;
 
+/// How finely everything is integrated.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    spans: Vec<crate::mesh::SpanMesh>,
+    tubes: Vec<Vec<usize>>,
+    known: Vec<Vector3<f64>>,
+    accuracy: f64,
+}
+
 /// How the last phase ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finish {
@@ -230,6 +239,22 @@ impl Equilibrium {
         self.tube_steps = tubes;
         self.known_force = known;
         outcome
+    }
+
+    /// The present mesh, to be put back by [`Equilibrium::set_mesh`] at the same parameters.
+    pub fn mesh(&self) -> Mesh {
+        Mesh {
+            spans: self.meshes.clone(),
+            tubes: self.tube_steps.clone(),
+            known: self.known_force.clone(),
+            accuracy: self.accuracy,
+        }
+    }
+
+    /// Puts a mesh of the same segments back.
+    pub fn set_mesh(&mut self, mesh: Mesh) {
+        (self.meshes, self.tube_steps, self.known_force, self.accuracy) =
+            (mesh.spans, mesh.tubes, mesh.known, mesh.accuracy);
     }
 
     /// Makes all integration steps half as long, which improves the accuracy by about 2⁸.

@@ -48,7 +48,7 @@ mod tubes;
 pub use neighbour::Law;
 pub use tangents::CENTRAL;
 
-pub use accuracy::Finish;
+pub use accuracy::{Finish, Mesh};
 pub use diagnose::Census;
 pub use error::ProblemError;
 pub use stability::{Rate, Stability, Variation};

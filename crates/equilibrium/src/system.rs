@@ -593,5 +593,15 @@ impl Liftable for Equilibrium {
         self.gaps.iter_mut().flatten().for_each(|gap| *gap = [0.0; BLOCK]);
         self.r[row] = -1.0;
         self.newton_step(step);
+        self.counts.newton_steps -= 1;
+    }
+
+    fn inverse_step(&mut self, x: &[f64], step: &mut [f64]) {
+        self.gaps.iter_mut().flatten().for_each(|gap| *gap = [0.0; BLOCK]);
+        for ((r, x), w) in self.r.iter_mut().zip(x).zip(&self.weights) {
+            *r = -x * w * w;
+        }
+        self.newton_step(step);
+        self.counts.newton_steps -= 1;
     }
 }

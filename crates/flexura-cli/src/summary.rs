@@ -33,7 +33,21 @@ pub fn render(summary: &Summary) -> String {
         text += &format!("\n{}\n", styled(DIM, "no stress where a section is given as a stiffness"));
     }
     text += &format!("\nstrain energy  {}\n", quantity(summary.energy, "J", 5));
+    if summary.status == Status::Converged {
+        text += &format!("stability      {}\n", stability(summary));
+    }
     text
+}
+
+/// "stable", "unstable in 2 directions", or why neither is said.
+fn stability(summary: &Summary) -> String {
+    match (summary.unstable_directions, &summary.stability_reason) {
+        (Some(0), _) => styled(GOOD, "stable"),
+        (Some(1), _) => styled(BAD, "unstable in 1 direction"),
+        (Some(count), _) => styled(BAD, &format!("unstable in {count} directions")),
+        (None, Some(reason)) => format!("not decided: {reason}"),
+        (None, None) => "not decided".to_owned(),
+    }
 }
 
 /// How far a study that did not converge has come: "stalled at 43 % of the load".
@@ -244,6 +258,31 @@ mod tests {
     use flexura::spatial::{Pose, Vector3, Wrench};
 
     const ELASTICA: &str = include_str!("../../../models/elastica.toml");
+
+    #[test]
+    fn the_verdict_on_stability_stands_behind_the_energy() {
+        let model = Document::parse(ELASTICA, "elastica.toml").and_then(|file| file.model(&[])).unwrap();
+        let mut solution = flexura::solve(&model, &flexura::Options::default(), &mut |_| {}).unwrap();
+        let mut says = |count: Option<usize>, reason: Option<&str>, status: Status, wanted: &str| {
+            solution.unstable_directions = count;
+            solution.stability_reason = reason.map(str::to_owned);
+            solution.status = status;
+            let text = render(&summarise(&model, &solution, &evaluate(&model, &solution).unwrap()));
+            let behind = text.split_once("\nstrain energy  ").and_then(|(_, rest)| rest.split_once('\n'));
+            let plain = behind.map(|(_, rest)| {
+                ["[1m", "[31m", "[32m", "[0m"]
+                    .iter()
+                    .fold(rest.to_owned(), |text, style| text.replace(&format!("\u{1b}{style}"), ""))
+            });
+            assert_eq!(plain.as_deref(), Some(wanted), "{text}");
+        };
+        says(Some(0), None, Status::Converged, "stability      stable\n");
+        says(Some(1), None, Status::Converged, "stability      unstable in 1 direction\n");
+        says(Some(2), None, Status::Converged, "stability      unstable in 2 directions\n");
+        let reason = Some("load.jet: it follows the tip");
+        says(None, reason, Status::Converged, "stability      not decided: load.jet: it follows the tip\n");
+        says(None, reason, Status::Stalled, "");
+    }
 
     #[test]
     fn what_was_found_stands_before_everything_else() {

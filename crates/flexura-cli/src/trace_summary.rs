@@ -27,15 +27,16 @@ pub fn render(model: &Model, study: &TraceStudy, trace: &Trace) -> String {
             text += &format!("\n{}", table.shortened(MOST_ROWS).render());
         }
     }
+    text += &names.events_not_met();
     text += &names.stalls();
     if let Some(curve) = &trace.critical {
         text += &names.critical(curve);
     }
     if model.outputs.len() > MOST_OUTPUTS {
-        let note = format!(
-            "{} further outputs stand in the files and the document",
-            model.outputs.len() - MOST_OUTPUTS
-        );
+        let note = match model.outputs.len() - MOST_OUTPUTS {
+            1 => "1 further output stands in the files and the document".to_owned(),
+            more => format!("{more} further outputs stand in the files and the document"),
+        };
         text += &format!("\n{}\n", styled(DIM, &note));
     }
     if let Some(reason) = &trace.stability_reason {
@@ -124,7 +125,8 @@ impl Names<'_> {
             "m" => error * self.scales.length,
             "N" => error * self.scales.force,
             "N*m" => error * self.scales.moment,
-            "rad" | "" => 1e-14,
+            "rad" => error.max(1e-14),
+            "" => 1e-10,
             _ => 0.0,
         };
         absolute.max(1e-10 * largest)
@@ -206,6 +208,15 @@ impl Names<'_> {
         }
     }
 
+    /// Events that were asked for and lie on no branch.
+    fn events_not_met(&self) -> String {
+        let points = || self.trace.branches.iter().flat_map(|branch| &branch.points);
+        let is_met = |event: usize| points().any(|point| point.kind == PointKind::Event(event));
+        let missing = self.study.events.iter().enumerate().filter(|(i, _)| !is_met(*i));
+        let text: String = missing.map(|(_, event)| format!("  not met: {}\n", event.output.name)).collect();
+        if text.is_empty() { text } else { format!("\n{text}") }
+    }
+
     /// Why branches could not be followed further.
     fn stalls(&self) -> String {
         let mut text = String::new();
@@ -259,14 +270,18 @@ fn verdict(branch: &Branch, position: usize) -> String {
     if let Some(word) = word(point) {
         return word;
     }
-    let neighbour = |found: Option<&TracePoint>| found.and_then(word);
-    let before = neighbour(position.checked_sub(1).and_then(|before| branch.points.get(before)));
-    let after = neighbour(branch.points.get(position + 1));
-    match (before, after, point.kind.is_critical()) {
-        (Some(before), Some(after), true) if before == after => before,
-        (Some(before), Some(after), true) => format!("{before} → {after}"),
-        (Some(one), None, true) | (None, Some(one), true) => one,
-        _ => "not decided".to_owned(),
+    let unknown = "not decided".to_owned();
+    if !point.kind.is_critical() {
+        return unknown;
+    }
+    // Beside another critical point there is no verdict either; a branch's end has one side only.
+    let side = |found: &TracePoint| word(found).unwrap_or_else(|| unknown.clone());
+    let before = position.checked_sub(1).and_then(|before| branch.points.get(before)).map(side);
+    let after = branch.points.get(position + 1).map(side);
+    match (before, after) {
+        (Some(before), Some(after)) if before == after => before,
+        (Some(before), Some(after)) => format!("{before} → {after}"),
+        (one, other) => one.or(other).unwrap_or(unknown),
     }
 }
 
@@ -365,8 +380,11 @@ mod tests {
 
     fn text(trace: &Trace) -> String {
         let model = Document::parse(ELASTICA, "elastica.toml").and_then(|file| file.model(&[])).unwrap();
-        let output = Output { name: "output.rise = 0.3 m".into(), ..model.outputs[0].clone() };
-        let study = TraceStudy { events: vec![Target { output, value: 0.3 }], ..TraceStudy::default() };
+        let event = |value: f64| {
+            let output = Output { name: format!("output.rise = {value} m"), ..model.outputs[0].clone() };
+            Target { output, value }
+        };
+        let study = TraceStudy { events: vec![event(0.3), event(0.9)], ..TraceStudy::default() };
         render(&model, &study, trace)
     }
 
@@ -383,6 +401,7 @@ mod tests {
             "fold 2 3.5 N 350 mm - - stable → unstable (1)",
             "1 rest 5 0 N, start 6 N, end of the range",
             "2 branch 1 at 2 N 4 2 N, start 3.2 N, stalled",
+            "not met: output.rise = 0.9 m",
             "branch 2 stalled at 3.2 N: the tangent has no inverse",
             "stalled: it has gone",
         ] {
@@ -391,6 +410,16 @@ mod tests {
         // The pitchfork is told once, and of the critical curve some rows.
         assert_eq!(text.matches("supercritical").count(), 1);
         assert!(text.contains("40 points") && text.lines().count() < 40, "{text}");
+    }
+
+    #[test]
+    fn between_two_critical_points_the_stability_is_not_known() {
+        let mut trace = trace();
+        trace.branches[0].points.remove(2);
+        let text = text(&trace);
+        for words in ["stable → not decided\n", "not decided → unstable (3)\n"] {
+            assert!(text.contains(words), "{words}:\n{text}");
+        }
     }
 
     #[test]

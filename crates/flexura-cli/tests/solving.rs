@@ -90,6 +90,21 @@ fn the_summary_is_in_units_that_a_person_reads() {
 }
 
 #[test]
+fn the_summary_says_whether_the_equilibrium_is_stable() {
+    let says = |arguments: &[&str], words: &str| {
+        let output = run(&[&["solve"], arguments].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        assert!(stdout(&output).ends_with(&format!("stability      {words}\n")), "{}", stdout(&output));
+    };
+    // Between pi^2/4 and 9 pi^2/4, and between that and 25 pi^2/4.
+    says(&["euler_clamped_free.toml", "--set", "push=2"], "stable");
+    says(&["euler_clamped_free.toml", "--set", "push=20"], "unstable in 1 direction");
+    says(&["euler_clamped_free.toml", "--set", "push=30"], "unstable in 2 directions");
+    let follows = "not decided: load.jet: a force that follows what it acts on has no energy";
+    says(&["follower_cantilever.toml"], follows);
+}
+
+#[test]
 fn quiet_says_nothing_when_all_is_well() {
     let output = run(&["solve", "elastica.toml", "--quiet"]);
     assert_eq!(code(&output), 0);

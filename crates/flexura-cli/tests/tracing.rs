@@ -46,6 +46,7 @@ fn mistakes_in_the_flags_of_a_trace_are_shown_where_they_are() {
         (&["--branches", "all"], &["expected true, false or a whole number, found \"all\""]),
         (&["--event", "output.slide"], &["no equals sign"]),
         (&["--event", "output.slid = 1 mm"], &["there is no output `slid`", "did you mean `slide`?"]),
+        (&["--event", "slide = 1 mm"], &["there is no parameter `slide`", "did you mean `output.slide`?"]),
         (&["--event", "output.way_force = 1 N"], &["this is a vector", "output.way_force.x"]),
         (&["--event", "output.slide = 1 N"], &["expected a length (m), found a force (N)"]),
         (&["--stop", "folds"], &["did you mean `fold`?"]),
@@ -80,6 +81,25 @@ fn mistakes_in_the_flags_of_buckling_are_shown_where_they_are() {
     for (flags, words) in cases {
         refused(&[&["buckle", "sensor_clamp.toml"], *flags].concat(), &[words]);
     }
+}
+
+#[test]
+fn what_is_wrong_with_a_whole_study_is_shown_at_what_was_typed_or_at_its_table() {
+    let follows = ["has no linear buckling: load.jet", "command line:1:1", "1 | buckle"];
+    refused(&["buckle", "follower_cantilever.toml"], &follows);
+    let path = folder("what_is_wrong_with_a_whole_study").join("jet.toml");
+    let text = std::fs::read_to_string("../../models/follower_cantilever.toml").unwrap();
+    let studies = "[study.first]\nkind = \"solve\"\n[study.second]\nkind = \"buckle\"\n";
+    std::fs::write(&path, format!("{text}{studies}")).unwrap();
+    refused(&["run", shown(&path), "second"], &["has no linear buckling: load.jet", "| [study.second]"]);
+}
+
+#[test]
+fn events_that_are_not_met_are_told() {
+    let range = ["--parameter", "push", "--range", "0 N:5 N", "--event", "output.slide = 3 m"];
+    let output = run(&[TRACE, &range].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stdout(&output).contains("not met: output.slide = 3 m"), "{}", stdout(&output));
 }
 
 /// A file of that name with these studies behind a cantilever.

@@ -18,12 +18,14 @@ parameter = "height"
 range = ["1 mm", "1.2 mm"]
 "#;
 
-/// A copy of the clamped Euler column with studies.
+/// A copy of the clamped Euler column with these studies in the place of its own.
 fn file(name: &str, studies: &str) -> PathBuf {
     let models = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../models");
     let text = std::fs::read_to_string(models.join("euler_clamped_clamped.toml")).unwrap();
+    // Without its own studies.
+    let text = text.split("[study.").next().unwrap_or_default();
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.toml"));
-    std::fs::write(&path, format!("{text}{studies}")).unwrap();
+    std::fs::write(&path, format!("{text}\n{studies}")).unwrap();
     path
 }
 

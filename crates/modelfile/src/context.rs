@@ -42,6 +42,8 @@ pub(crate) struct Context<'a> {
     count: Cell<usize>,
     used: RefCell<BTreeSet<(&'static str, String)>>,
     copies: Option<&'a Copies>,
+    /// Are parameters overridden?
+    pub is_overridden: bool,
     /// How often the same place was wrong in the copies of a table, by its byte range.
     alike: RefCell<BTreeMap<(usize, usize), usize>>,
 }
@@ -58,6 +60,7 @@ impl<'a> Context<'a> {
             count: Cell::new(0),
             used: RefCell::new(BTreeSet::new()),
             copies: None,
+            is_overridden: false,
             alike: RefCell::new(BTreeMap::new()),
         }
     }
@@ -71,6 +74,7 @@ impl<'a> Context<'a> {
             root: &expanded.root,
             names: names(&expanded.root),
             copies: Some(&expanded.copies),
+            is_overridden: self.is_overridden,
             texts: self.texts,
             folder: self.folder,
             parameters: self.parameters,

@@ -161,6 +161,7 @@ impl Document {
     ) -> T {
         let mut context = Context::new(&self.texts, &self.folder, &self.root);
         build::parameters(&mut context, overrides);
+        context.is_overridden = !overrides.is_empty();
         match repeat::expand(&context) {
             Err(Reported) => then(None, context),
             Ok(None) => {

@@ -23,7 +23,7 @@ impl Document {
     /// # Errors
     /// A list or table of another form. Wrong names and values are found where the model is made.
     pub fn with_study(&self, kind: &str, flags: &[Flag]) -> Result<Self, Report> {
-        let words = Words::new(self.texts.typed_start(), flags);
+        let words = Words::new(self.texts.typed_start(), kind, flags);
         let texts = Texts {
             file: self.texts.file.clone(),
             typed: Some(Arc::new(Source { name: SOURCE.to_string(), text: words.text.clone() })),
@@ -52,21 +52,21 @@ struct Word {
     value: Option<Node>,
 }
 
-/// The flags written out, as they would be typed.
+/// The verb and its flags written out, as they would be typed.
 struct Words {
     text: String,
+    /// Where the text is in the byte ranges.
+    span: Range<usize>,
     list: Vec<Word>,
 }
 
 impl Words {
     /// `start` is where the text begins in the byte ranges.
-    fn new(start: usize, flags: &[Flag]) -> Self {
-        let mut text = String::new();
+    fn new(start: usize, verb: &str, flags: &[Flag]) -> Self {
+        let mut text = verb.to_string();
         let mut list = Vec::new();
         for (flag, value) in flags {
-            if !text.is_empty() {
-                text.push(' ');
-            }
+            text.push(' ');
             let from = start + text.len();
             text.push_str(&format!("--{flag}"));
             let flag_span = from..start + text.len();
@@ -89,7 +89,7 @@ impl Words {
             });
             list.push(Word { flag, flag_span, value });
         }
-        Self { text, list }
+        Self { span: start..start + text.len(), text, list }
     }
 
     fn table(&self, kind: &str) -> Result<Node, Wrong> {
@@ -143,8 +143,7 @@ impl Words {
     }
 
     fn whole(&self) -> Range<usize> {
-        let ends = |word: &Word| word.value.as_ref().map_or(word.flag_span.end, |value| value.span.end);
-        self.list.first().map_or(0, |word| word.flag_span.start)..self.list.last().map_or(0, ends)
+        self.span.clone()
     }
 }
 

@@ -170,7 +170,8 @@ fn a_neighbouring_model_keeps_the_studies_though_a_range_loses_its_length() {
     let other = [("depth".to_string(), "30 mm".to_string())];
     let beside = document.model_beside(&other, &base.studies).unwrap();
     assert_eq!((&beside.studies, beside.parameters[2].value), (&base.studies, 0.03));
-    assert!(document.model(&other).is_err());
+    // With other values of its parameters a study of the file may have lost its meaning; that is told where it is done.
+    assert!(document.model(&other).is_ok());
 }
 
 #[test]
@@ -239,7 +240,7 @@ fn refusal(kind: &str, typed: &[(&'static str, &str)]) -> String {
 fn a_mistake_in_a_flag_is_shown_where_it_was_typed() {
     let shown = refusal("trace", &[("parameter", "pusch"), ("range", "0 N:40 N")]);
     let expected = "error: there is no parameter `pusch`\n\
-                    --> command line:1:13\n  |\n1 | --parameter pusch --range \"0 N:40 N\"\n  |             ^^^^^\n  |\n\
+                    --> command line:1:19\n  |\n1 | trace --parameter pusch --range \"0 N:40 N\"\n  |                   ^^^^^\n  |\n\
                     \x20 = help: did you mean `push`?\n";
     assert_eq!(shown.replace("\n ", "\n"), expected.replace("\n ", "\n"));
 

@@ -105,4 +105,8 @@ pub trait Liftable: System {
 
     /// `step = J'⁻¹ e_row` with the last tangent.
     fn unit_step(&mut self, row: usize, step: &mut [f64]);
+
+    /// `step = J'⁻¹ W² x` with the last tangent, W the weights of [`System::product`], every unknown standing for the equation of its
+    /// number: a step of inverse iteration.
+    fn inverse_step(&mut self, x: &[f64], step: &mut [f64]);
 }

@@ -44,6 +44,10 @@ pub struct Summary {
     pub tubes: Vec<TubesSummary>,
     /// Strain energy, J.
     pub energy: f64,
+    /// Number of unstable directions of the equilibrium; None where that is not decided.
+    pub unstable_directions: Option<usize>,
+    /// Why it is not decided.
+    pub stability_reason: Option<String>,
     /// Things to know though the solve went well.
     pub warnings: Vec<String>,
     /// How large lengths, forces and moments are here, so that rounding noise can be told from values.
@@ -229,6 +233,8 @@ pub fn summarise(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
             .collect(),
         tubes: model.tubes.iter().zip(&solution.tubes).filter_map(tubes_summary).collect(),
         energy: solution.energy,
+        unstable_directions: solution.unstable_directions,
+        stability_reason: solution.stability_reason.clone(),
         warnings: solution.warnings.clone(),
         scales: scales(solution),
     }

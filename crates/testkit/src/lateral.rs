@@ -4,7 +4,10 @@
 //! `GJ φ1' = g1 - m φ2`, `EI2 φ2' = g2 + m φ1` with the change g of the moment. (L. Prandtl, *Kipperscheinungen* (1899);
 //! A. G. M. Michell, *Phil. Mag.* 48 (1899) 298; S. P. Timoshenko and J. M. Gere, *Theory of Elastic Stability*, 2nd ed. (1961), ch. 6.)
 
+use crate::perturbation::{Condition, Loaded, Prestress, held};
 use crate::roots::first_roots;
+use flexura_spatial::Vector3;
+use nalgebra::Matrix3;
 use std::f64::consts::PI;
 
 /// The tip load P L²/√(EI2 GJ) at which a clamped strip buckles sideways: 4.012599, twice the first zero of the Bessel function
@@ -65,14 +68,55 @@ pub fn bent_frame(bending: [f64; 2], torsion: f64, length: f64, corner: f64) -> 
     })
 }
 
+/// The least end moment, of one sign (`1.0` closes the corner), at which both legs of the same frame move to opposite sides
+/// and the corner turns about its bisector, up to twice the moment of [`frame`]. By the small motions of a leg ([`crate::perturbation`]).
+pub fn twisted_frame(bending: [f64; 2], torsion: f64, length: f64, corner: f64, sign: f64) -> Option<f64> {
+    let usual = frame(bending[0], torsion, length);
+    let compliance = [0.0, 0.0, 0.0, 1.0 / torsion, 1.0 / bending[0], 1.0 / bending[1]];
+    let condition = |moment: f64| leg(sign * moment, compliance, length, corner)[1];
+    first_roots(condition, 0.05 * usual, 0.05 * usual, 1, 39).first().copied()
+}
+
+/// The determinants of one leg, from its far end to the corner, in a frame of the angle `corner` between the legs.
+fn leg(moment: f64, compliance: [f64; 6], length: f64, corner: f64) -> [f64; 2] {
+    let curvature = moment * compliance[5];
+    let state = |_: f64| Prestress {
+        strain: Vector3::x(),
+        curvature: Vector3::new(0.0, 0.0, curvature),
+        force: Vector3::zeros(),
+        moment: Vector3::new(0.0, 0.0, moment),
+    };
+    let transfer = Loaded { length, compliance, state: &state }.transfer(16);
+    // Far end: neither turning about e1, e2 nor motion across the plane; what else it does in the plane drops out. At
+    // the corner, with the bisector b and its normal in the plane, of motions that are the same on both sides: no
+    // turning about b, no moment about the normal, no force across, which both legs would exert with the same sign.
+    // Of opposite motions: no turning about the normal, no moment about b, no motion across.
+    let (s, c) = (PI - 0.5 * corner).sin_cos();
+    let (bisector, normal) = ([c, s], [-s, c]);
+    let row = |first: usize, [a, b]: [f64; 2]| -> Condition {
+        std::array::from_fn(|i| {
+            if i == first {
+                a
+            } else if i == first + 1 {
+                b
+            } else {
+                0.0
+            }
+        })
+    };
+    let same = [row(3, bisector), row(9, normal), held([8])[0]];
+    let opposite = [row(3, normal), row(9, bisector), held([2])[0]];
+    [same, opposite].map(|rows| {
+        let entry = |i: usize, j: usize| (0..12).map(|l| rows[i][l] * transfer[(l, [9, 10, 8][j])]).sum();
+        Matrix3::from_fn(entry).determinant()
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::assert_close;
-    use crate::perturbation::{Condition, Loaded, Prestress, held};
     use crate::roots::root;
-    use flexura_spatial::Vector3;
-    use nalgebra::Matrix3;
 
     #[test]
     fn the_printed_numbers_come_out() {
@@ -106,41 +150,6 @@ mod tests {
         assert!((0..10).all(|i| at(0.0) * at(0.1 * f64::from(i) * load) > 0.0));
     }
 
-    /// The determinants of one leg, from its far end to the corner, in a frame of the angle `corner` between the legs.
-    fn leg(moment: f64, compliance: [f64; 6], length: f64, corner: f64) -> [f64; 2] {
-        let curvature = moment * compliance[5];
-        let state = |_: f64| Prestress {
-            strain: Vector3::x(),
-            curvature: Vector3::new(0.0, 0.0, curvature),
-            force: Vector3::zeros(),
-            moment: Vector3::new(0.0, 0.0, moment),
-        };
-        let transfer = Loaded { length, compliance, state: &state }.transfer(16);
-        // Far end: neither turning about e1, e2 nor motion across the plane; what else it does in the plane drops out. At
-        // the corner, with the bisector b and its normal in the plane, of motions that are the same on both sides: no
-        // turning about b, no moment about the normal, no force across, which both legs would exert with the same sign.
-        // Of opposite motions: no turning about the normal, no moment about b, no motion across.
-        let (s, c) = (PI - 0.5 * corner).sin_cos();
-        let (bisector, normal) = ([c, s], [-s, c]);
-        let row = |first: usize, [a, b]: [f64; 2]| -> Condition {
-            std::array::from_fn(|i| {
-                if i == first {
-                    a
-                } else if i == first + 1 {
-                    b
-                } else {
-                    0.0
-                }
-            })
-        };
-        let same = [row(3, bisector), row(9, normal), held([8])[0]];
-        let opposite = [row(3, normal), row(9, bisector), held([2])[0]];
-        [same, opposite].map(|rows| {
-            let entry = |i: usize, j: usize| (0..12).map(|l| rows[i][l] * transfer[(l, [9, 10, 8][j])]).sum();
-            Matrix3::from_fn(entry).determinant()
-        })
-    }
-
     #[test]
     fn the_frame_stands_still_at_its_moment_whatever_its_corner() {
         let (length, torsion) = (1.3, 0.6);
@@ -162,5 +171,16 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn the_corner_twists_past_the_usual_moment_and_sooner_where_it_opens() {
+        let usual = frame(1.0, 0.6, 1.3);
+        let twisted = |length: f64, sign: f64| {
+            twisted_frame([1.0, f64::INFINITY], 0.6, length, 0.5 * PI, sign).unwrap()
+        };
+        let [closing, opening] = [1.0, -1.0].map(|sign| twisted(1.3, sign));
+        assert!(usual < opening && opening < closing, "{usual} {opening} {closing}");
+        assert_close(2.0 * twisted(2.6, -1.0), opening, 1e-12, "in inverse proportion to the length");
     }
 }

@@ -8,7 +8,7 @@ use flexura_solution::Status;
 
 /// A model file, with what a case adds to it.
 pub struct File {
-    document: Document,
+    pub(crate) document: Document,
 }
 
 /// A solved file.
@@ -18,12 +18,14 @@ pub struct Answer {
 }
 
 impl File {
-    /// From the text of a model file.
+    /// From the text of a model file, without its studies: a case says itself what is done, with values that these need not
+    /// allow.
     ///
     /// # Errors
     /// The text is wrong.
     pub fn new(text: &str) -> Result<Self, String> {
-        let document = Document::parse(text, "model.toml").map_err(|report| report.render(false))?;
+        let document =
+            Document::parse(&without_studies(text), "model.toml").map_err(|report| report.render(false))?;
         Ok(Self { document })
     }
 
@@ -40,8 +42,7 @@ impl File {
     /// # Errors
     /// As [`File::solve`].
     pub fn solve_with(&self, values: &[(&str, f64)], options: &Options) -> Result<Answer, String> {
-        let overrides: Vec<(String, String)> =
-            values.iter().map(|(name, value)| ((*name).to_string(), format!("{value:e}"))).collect();
+        let overrides = Self::overrides(values);
         let model = self.document.model(&overrides).map_err(|report| report.render(false))?;
         let mut family = FileFamily::new(&self.document, &overrides, &model);
         let (solution, model) =
@@ -52,6 +53,11 @@ impl File {
         }
         let evaluation = post::evaluate(&model, &solution).map_err(|error| error.to_string())?;
         Ok(Answer { model, evaluation })
+    }
+
+    /// Parameters as the file has them.
+    pub(crate) fn overrides(values: &[(&str, f64)]) -> Vec<(String, String)> {
+        values.iter().map(|(name, value)| ((*name).to_string(), format!("{value:e}"))).collect()
     }
 }
 
@@ -80,6 +86,18 @@ impl Answer {
     fn output(&self, name: &str) -> Option<OutputValue> {
         self.evaluation.outputs.iter().find(|output| output.name == name).map(|output| output.value)
     }
+}
+
+/// The text without the tables that describe studies.
+fn without_studies(text: &str) -> String {
+    let mut kept = true;
+    let lines = text.lines().filter(|line| {
+        if line.starts_with('[') {
+            kept = !line.starts_with("[study.");
+        }
+        kept
+    });
+    lines.flat_map(|line| [line, "\n"]).collect()
 }
 
 /// A file with an inverse problem added: parameters with their guesses, outputs with the values wanted.

@@ -12,6 +12,7 @@ mod case;
 mod cases;
 mod file;
 mod measure;
+mod path;
 mod table;
 
 pub use case::{Case, Estimate, Row, Run, Weigh};

@@ -1,6 +1,6 @@
 //! `flexura buckle FILE`
 
-use super::{file_failure, problem_failure};
+use super::{file_failure, study_failure};
 use crate::answer::{Answer, StudyDocument, Task, unwritable};
 use crate::arguments::BuckleArguments;
 use crate::buckling_summary;
@@ -15,8 +15,8 @@ pub fn run(arguments: &BuckleArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
     let file = file.with_study("buckle", &flags(arguments)).map_err(|report| file_failure(&report))?;
     let task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
-    match task.model.studies.last().map(|study| &study.kind) {
-        Some(StudyKind::Buckle(buckle)) => task.deliver(study(&task, buckle)?),
+    match task.model.studies.last().map(|study| (&study.name, &study.kind)) {
+        Some((name, StudyKind::Buckle(buckle))) => task.deliver(study(&task, name, buckle)?),
         _ => Err(Failure::Machine(
             "the flags made no study; this is a bug in flexura, please report it".into(),
         )),
@@ -29,10 +29,10 @@ fn flags(arguments: &BuckleArguments) -> Vec<Flag> {
 }
 
 /// Critical loads of a file's model.
-pub fn study(task: &Task<'_>, study: &BuckleStudy) -> Result<Answer, Failure> {
+pub fn study(task: &Task<'_>, name: &str, study: &BuckleStudy) -> Result<Answer, Failure> {
     let mut family = FileFamily::new(&task.file, task.overrides, &task.model);
     let buckled = Buckled::new(&task.model, &mut family, study, &task.options)
-        .map_err(|error| problem_failure(&task.file, &error))?;
+        .map_err(|error| study_failure(&task.file, name, &error))?;
     let (model, buckling) = (&buckled.model, &buckled.buckling);
 
     let refused = |error: OutputError| unwritable(failure(&buckling.solution), &error.to_string());

@@ -31,6 +31,14 @@ pub fn problem_failure(file: &Document, error: &ProblemError) -> Failure {
     Failure::Input(file.problem(&error.path, &error.message, hint).render(true))
 }
 
+/// A study that cannot be done: what is wrong with the whole of it is shown at its own table or flags.
+pub fn study_failure(file: &Document, name: &str, error: &ProblemError) -> Failure {
+    if error.path != "study" {
+        return problem_failure(file, error);
+    }
+    problem_failure(file, &ProblemError { path: format!("study.{name}"), ..error.clone() })
+}
+
 /// What looks unintended in the file though it can be solved.
 pub fn warn_about(file: &Document, warnings: &[String]) {
     for problem in file.warnings() {

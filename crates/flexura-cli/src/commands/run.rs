@@ -74,8 +74,8 @@ fn chosen<'t>(task: &'t Task<'_>, name: Option<&str>) -> Result<Vec<&'t Study>, 
 fn answer(task: &Task<'_>, study: &Study) -> Result<Answer, Failure> {
     match &study.kind {
         StudyKind::Solve => solve::study(task, None),
-        StudyKind::Trace(trace) => trace::study(task, trace),
-        StudyKind::Buckle(buckle) => buckle::study(task, buckle),
+        StudyKind::Trace(trace) => trace::study(task, &study.name, trace),
+        StudyKind::Buckle(buckle) => buckle::study(task, &study.name, buckle),
     }
 }
 

@@ -1,6 +1,6 @@
 //! `flexura trace FILE --parameter P --range A:B`
 
-use super::{file_failure, problem_failure};
+use super::{file_failure, study_failure};
 use crate::answer::{Answer, StudyDocument, Task, unwritable};
 use crate::arguments::TraceArguments;
 use crate::failure::Failure;
@@ -16,8 +16,8 @@ pub fn run(arguments: &TraceArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
     let file = file.with_study("trace", &flags(arguments)).map_err(|report| file_failure(&report))?;
     let task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
-    match task.model.studies.last().map(|study| &study.kind) {
-        Some(StudyKind::Trace(trace)) => task.deliver(study(&task, trace)?),
+    match task.model.studies.last().map(|study| (&study.name, &study.kind)) {
+        Some((name, StudyKind::Trace(trace))) => task.deliver(study(&task, name, trace)?),
         _ => Err(Failure::Machine(
             "the flags made no study; this is a bug in flexura, please report it".into(),
         )),
@@ -46,14 +46,14 @@ fn flags(arguments: &TraceArguments) -> Vec<Flag> {
 }
 
 /// A path of equilibria of a file's model.
-pub fn study(task: &Task<'_>, study: &TraceStudy) -> Result<Answer, Failure> {
+pub fn study(task: &Task<'_>, name: &str, study: &TraceStudy) -> Result<Answer, Failure> {
     let model = &task.model;
     let mut family = FileFamily::new(&task.file, task.overrides, model);
     let mut meter = TraceMeter::new(task.is_quiet, &model.parameters[study.parameter]);
     let traced =
         flexura::trace(model, &mut family, study, &task.options, &mut |progress| meter.update(progress));
     meter.finish();
-    let trace = traced.map_err(|error| problem_failure(&task.file, &error))?;
+    let trace = traced.map_err(|error| study_failure(&task.file, name, &error))?;
 
     let refused = |error: OutputError| unwritable(failure(&trace), &error.to_string());
     let mut document = None;

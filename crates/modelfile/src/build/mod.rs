@@ -87,6 +87,9 @@ pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<M
         if context.is_full() {
             break;
         }
+        if is_aside(context, &model, &issue.path) {
+            continue;
+        }
         let span = root.locate(&issue.path).unwrap_or(0..0);
         let mut problem = context.problem(&span, &issue.path, issue.message);
         problem.hint = issue.hint;
@@ -99,6 +102,17 @@ pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<M
         model.studies = studies.to_vec();
     }
     Some(model)
+}
+
+/// Is something wrong only with a study that is not the one to be done? With other values of parameters than the file's, or beside a
+/// study that was typed, a study of the file need not make sense; where it is done after all, it is looked at again.
+fn is_aside(context: &Context<'_>, model: &Model, path: &str) -> bool {
+    let Some(rest) = path.strip_prefix("study.") else { return false };
+    let name = rest.split('.').next().unwrap_or(rest);
+    match (&context.texts.typed, model.studies.last()) {
+        (Some(_), Some(typed)) => typed.name != name,
+        _ => context.is_overridden,
+    }
 }
 
 /// Puts a study behind those of the file, under a name that none of them has.

@@ -5,8 +5,8 @@ use super::problem::{Axis, Traced};
 use super::record::Reader;
 use super::{TraceProgress, critical, search};
 use crate::{Family, Options, Prepared, ProblemError};
-use flexura_continuation::{Problem, WalkOptions, Walker};
-use flexura_model::{Model, Stop, TraceStudy};
+use flexura_continuation::{Problem, Refusal, WalkOptions, Walker};
+use flexura_model::{Model, Stop, StudyKind, TraceStudy};
 use flexura_nonlinear::{NewtonOptions, System, converge};
 use flexura_solution::{Branch, BranchEnd, BranchOrigin, Crossing, PointKind, Status, Trace, TraceWork};
 use std::collections::VecDeque;
@@ -25,6 +25,8 @@ pub(crate) struct Collection {
     pub branches: Vec<Branch>,
     pub known: Vec<Known>,
     pub warnings: Vec<String>,
+    /// Of the parameter, with a space before it.
+    pub unit: String,
     pub work: TraceWork,
 }
 
@@ -43,21 +45,8 @@ pub fn trace(
     options: &Options,
     progress: &mut dyn FnMut(TraceProgress),
 ) -> Result<Trace, ProblemError> {
-    if !model.unknowns.is_empty() {
-        return Err(ProblemError::new(
-            "unknown",
-            "an inverse problem cannot be traced: its parameters are found at every point",
-            "leave out [unknown] and [target], and trace the parameter itself",
-        ));
-    }
+    super::check_study(model, StudyKind::Trace(study.clone()))?;
     let span = study.range[1] - study.range[0];
-    if !(span.is_finite() && span != 0.0) {
-        return Err(ProblemError::new(
-            "study",
-            format!("the range from {} to {} has no extent", study.range[0], study.range[1]),
-            "give two different values",
-        ));
-    }
     let axis = Axis { parameter: study.parameter, origin: study.range[0], span };
     let mut watched = study.events.clone();
     watched.extend(study.stops.iter().filter_map(|stop| match stop {
@@ -78,18 +67,28 @@ pub fn trace(
         tolerance: options.tolerance,
         progress,
         branch: 0,
+        missed: Default::default(),
+    };
+    let unit = match model.parameters[study.parameter].unit.as_str() {
+        "" => String::new(),
+        unit => format!(" {unit}"),
     };
     let mut collection = Collection {
         branches: Vec::new(),
         known: Vec::new(),
         warnings: Vec::new(),
+        unit,
         work: TraceWork::default(),
     };
+    let parameter = &model.parameters[study.parameter];
     let mut trace = Trace {
         parameter: study.parameter,
         range: study.range,
         status: outcome.status,
-        reason: outcome.reason.map(|reason| format!("at the start of the path: {reason}")),
+        reason: outcome.reason.map(|reason| {
+            format!("the path has no start, from rest to {} = {:.6e} {}: {reason}; or let it start at another value in its range",
+                parameter.name, study.start, parameter.unit)
+        }),
         warnings: prepared.problem.warnings().to_vec(),
         stability_reason: None,
         branches: Vec::new(),
@@ -121,7 +120,19 @@ pub fn trace(
         ..collection.work
     };
     trace.branches = collection.branches;
+    if follower.missed.get() > 0 {
+        trace.warnings.push(format!(
+            "{} events or stops were passed but could not be placed; take more steps",
+            follower.missed.get()
+        ));
+    }
     (trace.status, trace.reason) = verdict(&trace);
+    if study.critical.is_some() && trace.critical.is_none() && trace.status == Status::Converged {
+        (trace.status, trace.reason) = (
+            Status::Stalled,
+            Some("there is no critical point to follow in a second parameter; widen the range".to_string()),
+        );
+    }
     Ok(trace)
 }
 
@@ -163,10 +174,13 @@ pub(crate) fn from_here(
         let walker = Walker::start(traced, options, direction);
         *leg = Some(match walker {
             Ok(mut walker) => follower.follow(traced, &mut walker, First::Start),
-            Err(_) => Leg {
+            Err(refusal) => Leg {
                 points: Vec::new(),
                 met: Vec::new(),
-                end: BranchEnd::Stalled("the tangent has no inverse at its start".to_string()),
+                end: BranchEnd::Stalled(match refusal {
+                    Refusal::Parameter(why) => why,
+                    Refusal::Broken(_) => "the tangent has no inverse at its start".to_string(),
+                }),
                 refused: 0,
             },
         });
@@ -264,9 +278,9 @@ fn add(
             let point = &collection.branches[branch].points[met.at];
             if let PointKind::Branch(Crossing::Multiple(count)) = point.kind {
                 collection.warnings.push(format!(
-                    "{count} directions give way at once where the parameter is {:.6e} (SI): branches are followed only where one \
+                    "{count} directions give way at once where the parameter is {:.6e}{}: branches are followed only where one \
                      does; give sections two different stiffnesses, or a small imperfection, to tell them apart",
-                    point.parameter
+                    point.parameter, collection.unit
                 ));
             }
         }
@@ -364,7 +378,7 @@ fn verdict(trace: &Trace) -> (Status, Option<String>) {
                     return (
                         Status::IterationLimit,
                         Some(format!(
-                            "branch {} has as many points as are allowed; raise most_points",
+                            "branch {} has as many points as are allowed; raise `most_points` (`--most-points`)",
                             i + 1
                         )),
                     );

@@ -12,7 +12,7 @@ use super::ritz;
 use crate::family::{SMALL, size_of};
 use crate::{Family, Options, Prepared, ProblemError};
 use flexura_equilibrium::{Rate, Variation};
-use flexura_model::{BuckleStudy, Model};
+use flexura_model::{BuckleStudy, Model, StudyKind};
 use flexura_nonlinear::{Breakdown, NewtonEnd, NewtonOptions, System, converge};
 use flexura_solution::{Buckling, BucklingMode, Status};
 
@@ -23,6 +23,8 @@ const CHANGE: f64 = 1e-2;
 /// By how much more the wrenches change where the shape is kept: the second variation is all but linear in them, and round-off in
 /// stiff directions would tell in a small difference.
 const STRESS: f64 = 30.0;
+/// Estimated error, as a part of the value, beyond which a value is none.
+const UNSURE: f64 = 0.1;
 /// Steps of the load to a fraction of it.
 const LOAD_STEPS: usize = 20;
 
@@ -37,9 +39,13 @@ pub fn buckle(
     study: &BuckleStudy,
     options: &Options,
 ) -> Result<Buckling, ProblemError> {
+    super::check_study(model, StudyKind::Buckle(*study))?;
     let wrong = |why: String, hint: &str| ProblemError::new("study", why, hint);
     let base = match study.parameter {
-        Some(parameter) => family.model(&[(parameter, study.at)])?,
+        Some(parameter) => family.model(&[(parameter, study.at)]).map_err(|error| ProblemError {
+            hint: "choose `at` (`--at`): the value about which the problem is linearised".to_string(),
+            ..error
+        })?,
         None => model.clone(),
     };
     let mut prepared = Prepared::new(&base)?;
@@ -80,6 +86,7 @@ pub fn buckle(
     let wanted = study.count.max(1);
     let mut levels: Vec<Vec<f64>> = Vec::with_capacity(PARTS.len());
     let mut modes = Vec::new();
+    let mut unsure = 0;
     for parts in PARTS {
         let mut pencil = prepared.pencil(family, study, parts).map_err(|error| match error {
             Failure::Breakdown(breakdown) => critical(breakdown),
@@ -94,6 +101,10 @@ pub fn buckle(
         if levels.len() + 1 == PARTS.len() {
             for (i, (value, x)) in found.iter().enumerate() {
                 let (value, error_estimate) = romberg(&levels, i, *value);
+                if error_estimate > UNSURE * value.abs() {
+                    unsure += 1;
+                    continue;
+                }
                 let step = prepared.problem.step_of(&pencil.base, x);
                 let direction = reader.direction(&mut prepared.problem, &step);
                 modes.push(BucklingMode { value: study.at + value, error_estimate, direction });
@@ -101,7 +112,12 @@ pub fn buckle(
         }
         levels.push(found.into_iter().map(|(value, _)| value).collect());
     }
-    if modes.len() < wanted {
+    if unsure > 0 {
+        solution.warnings.push(format!(
+            "{unsure} critical values are left out, for they change by more than a tenth when beams are cut into more stretches; trace the \
+             parameter instead"
+        ));
+    } else if modes.len() < wanted {
         solution.warnings.push(format!("only {} critical values were found", modes.len()));
     }
     Ok(Buckling { parameter: study.parameter, at: study.at, solution, modes })

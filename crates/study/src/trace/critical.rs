@@ -39,10 +39,10 @@ pub(crate) fn follow(
 ) -> Option<CriticalCurve> {
     let Some(known) = collection.known.get(wanted.number.max(1) - 1) else {
         let count = collection.known.len();
-        collection.warnings.push(format!(
-            "there is no critical point number {} to follow: {count} were found",
-            wanted.number
-        ));
+        let found = if count == 1 { "1 was".to_string() } else { format!("{count} were") };
+        collection
+            .warnings
+            .push(format!("there is no critical point number {} to follow: {found} found", wanted.number));
         return None;
     };
     let point = &collection.branches[known.branch].points[known.at];
@@ -135,5 +135,7 @@ fn report(
         solution: None,
         directions: Vec::new(),
     };
+    // The ends of the range are met exactly.
+    let second = if (second - second.round()).abs() <= 1e-11 { second.round() } else { second };
     (traced.axes[1].value(second), point)
 }

@@ -47,12 +47,16 @@ pub(crate) struct Follower<'s> {
     pub progress: &'s mut dyn FnMut(TraceProgress),
     /// Number of the branch, for progress.
     pub branch: usize,
+    /// Events and stops that were seen to be passed but could not be placed.
+    pub missed: std::cell::Cell<usize>,
 }
 
 /// Regular points between two whose whole state is kept.
 const KEPT: usize = 8;
 /// A parameter that lies outside its range by so little is at its end.
 const EDGE: f64 = 1e-9;
+/// The same where nothing can be had at the end itself.
+const ARRIVED: f64 = 1e-6;
 /// Most tries to find where a quantity has a value.
 const TRIES: usize = 60;
 /// Accuracy of a mesh beside the tolerance, to begin with.
@@ -97,6 +101,7 @@ impl Follower<'_> {
         };
         let mut before = self.read(traced, walker);
         let mut start = walker.here().clone();
+        let from_start = matches!(first, First::Start);
         let mut point =
             regular(traced.axes[0].value(start.point.parameters[0]), &start, before.clone(), error);
         match first {
@@ -126,7 +131,7 @@ impl Follower<'_> {
                 Advance::To(specials) => specials,
                 Advance::Stalled(stall) => {
                     self.close(traced, walker, leg);
-                    return stalled(&stall);
+                    return self.end_at(traced, leg, &stall);
                 }
             };
             steps += 1;
@@ -138,7 +143,7 @@ impl Follower<'_> {
                     Ok(place) => Some(place),
                     Err(stall) => {
                         self.close(traced, walker, leg);
-                        return stalled(&stall);
+                        return self.end_at(traced, leg, &stall);
                     }
                 }
             } else {
@@ -171,10 +176,19 @@ impl Follower<'_> {
                 passed.push((part, Passed::Watched(watched, place)));
             }
             passed.sort_by(|a, b| a.0.total_cmp(&b.0));
-            for (_, passed) in passed {
+            let mut last_part = None;
+            for (part, passed) in passed {
+                if let Some(before) = last_part.replace(part) {
+                    // A regular point between two others tells what each of them changes.
+                    self.report_between(traced, walker, 0.5 * (before + part), error, leg);
+                }
                 if self.report(traced, walker, passed, error, leg) {
                     return BranchEnd::Stop;
                 }
+            }
+            // What was passed has led away from the point, and forces there are not those here.
+            if last_part.is_some() && walker.here().point.restore(traced).is_ok() {
+                let _ = traced.problem().residual();
             }
             if let Some(place) = last {
                 let _ = place.point.restore(traced);
@@ -186,8 +200,15 @@ impl Follower<'_> {
             }
             let here = walker.here().clone();
             if steps > 3 && walker.passes(traced, &start.point, &start.tangent) {
-                if let Some(point) = leg.points.first().cloned() {
-                    leg.points.push(TracePoint { arc: here.arc, ..point });
+                if from_start {
+                    if let Some(point) = leg.points.first().cloned() {
+                        leg.points.push(TracePoint { arc: here.arc, ..point });
+                    }
+                } else {
+                    // The loop has come back to the branch point behind which the leg began.
+                    while leg.points.last().is_some_and(|point| point.kind == PointKind::Regular) {
+                        leg.points.pop();
+                    }
                 }
                 return BranchEnd::Closed;
             }
@@ -215,8 +236,18 @@ impl Follower<'_> {
         }
     }
 
+    /// Why a leg ends that cannot go on: at the very end of the range there may be no regular point, for a load that goes to nothing can
+    /// leave something free.
+    fn end_at(&self, traced: &Traced<'_>, leg: &Leg, stall: &Stall) -> BranchEnd {
+        let at = leg.points.last().map_or(0.5, |point| traced.axes[0].scaled(point.parameter));
+        let arrived = leg.points.len() > 1 && at.abs().min((at - 1.0).abs()) <= ARRIVED;
+        if arrived { BranchEnd::Range } else { stalled(stall) }
+    }
+
     /// The mesh follows the forces.
     fn renew(&mut self, traced: &mut Traced<'_>, walker: &mut Walker) -> Result<(), Stall> {
+        // Events have led away from the point.
+        walker.here().point.restore(traced).map_err(|_| Stall::Short)?;
         traced.problem().weigh();
         let tangent = traced.renew(&walker.here().tangent);
         if tangent.is_some() {
@@ -289,8 +320,9 @@ impl Follower<'_> {
             if (a * b >= 0.0 && *b != 0.0) || a.abs() <= 1e-12 * b.abs() {
                 continue;
             }
-            if let Some(place) = self.zero(traced, walker, i, (*a, *b), whole) {
-                found.push((i, place));
+            match self.zero(traced, walker, i, (*a, *b), whole) {
+                Some(place) => found.push((i, place)),
+                None => self.missed.set(self.missed.get() + 1),
             }
         }
         found
@@ -311,7 +343,9 @@ impl Follower<'_> {
         let mut best = None;
         for _ in 0..TRIES {
             let part = (a * fb - b * fa) / (fb - fa);
-            walker.glance(traced, part).ok()?;
+            if walker.glance(traced, part).is_err() {
+                walker.between(traced, part).ok()?;
+            }
             let f = self.read(traced, walker).left[which]?;
             best = Some(part);
             if f.abs() <= 1e-13 * size || (b - a).abs() < 1e-13 {
@@ -348,8 +382,12 @@ impl Follower<'_> {
             Passed::Special(special) => walker.part_of(traced, &special.point),
             Passed::Watched(_, place) => walker.part_of(traced, &place.point),
         };
-        let mesh = traced.problem().mesh_accuracy();
+        let mut mesh = None;
         if let Passed::Special(special) = &mut passed {
+            // The walk goes on with the mesh that it has here.
+            if walker.here().point.restore(traced).is_ok() {
+                mesh = Some(traced.problem().mesh());
+            }
             error = self.sharpened(traced, special);
         }
         let (at, kind, index) = match &passed {
@@ -393,8 +431,10 @@ impl Follower<'_> {
             });
         }
         leg.points.push(point);
-        if traced.problem().mesh_accuracy() != mesh {
-            traced.refine(mesh);
+        if let Some(mesh) = mesh
+            && walker.here().point.restore(traced).is_ok()
+        {
+            traced.put_mesh(mesh);
         }
         self.stops(&passed, leg)
     }
@@ -414,6 +454,23 @@ impl Follower<'_> {
             }
         }
         error
+    }
+
+    /// Reports the regular point at a part of the last step.
+    fn report_between(
+        &self,
+        traced: &mut Traced<'_>,
+        walker: &mut Walker,
+        part: f64,
+        error: f64,
+        leg: &mut Leg,
+    ) {
+        if let Ok(place) = walker.between(traced, part) {
+            let reading = self.read(traced, walker);
+            let value = traced.axes[0].value(place.point.parameters[0]);
+            leg.points
+                .push(TracePoint { arc: walker.arc_at(part), ..regular(value, &place, reading, error) });
+        }
     }
 
     /// Is the last point of the leg one at which it is to stop?

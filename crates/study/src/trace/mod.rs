@@ -25,3 +25,15 @@ pub struct TraceProgress {
     /// Value of the parameter at the last of them, SI.
     pub parameter: f64,
 }
+
+/// A study that does not fit its model.
+pub(crate) fn check_study(
+    model: &flexura_model::Model,
+    kind: flexura_model::StudyKind,
+) -> Result<(), crate::ProblemError> {
+    let study = flexura_model::Study { name: "study".to_string(), kind };
+    match model.study_issues(&study).into_iter().next() {
+        Some(issue) => Err(crate::ProblemError::new("study", issue.message, issue.hint.unwrap_or_default())),
+        None => Ok(()),
+    }
+}

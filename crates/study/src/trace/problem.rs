@@ -4,7 +4,7 @@ use super::line::Line;
 use crate::Prepared;
 use crate::family::Family;
 use flexura_continuation::{Parameters, Problem, Refusal, Tangent};
-use flexura_equilibrium::{Equilibrium, Law, Stability};
+use flexura_equilibrium::{Equilibrium, Law, Mesh, Stability};
 use flexura_model::Model;
 use flexura_nonlinear::System;
 
@@ -175,6 +175,12 @@ impl<'a> Traced<'a> {
     pub fn finer(&mut self) {
         self.laws.clear();
         self.prepared.problem.halve_steps();
+    }
+
+    /// Puts a mesh back that was taken at the present parameters.
+    pub fn put_mesh(&mut self, mesh: Mesh) {
+        self.laws.clear();
+        self.prepared.problem.set_mesh(mesh);
     }
 
     /// Makes a mesh of another accuracy.

@@ -7,10 +7,14 @@ use crate::search::{equilibria, same};
 use crate::{Options, Prepared};
 use flexura_continuation::{Advance, Problem, WalkOptions, Walker};
 use flexura_model::Model;
-use flexura_solution::{BranchOrigin, Status};
+use flexura_solution::{Branch, BranchOrigin, PointKind, Status, TracePoint};
 
 /// Seed of the pushes: the same trace finds the same branches.
 const SEED: u64 = 1;
+/// Where along the range an imperfection is led away, one after another until a branch is found.
+const PLACES: [f64; 3] = [1.0, 0.75, 0.5];
+/// Where an imperfection may lead to.
+const KNOWN: &str = "it ends on a branch that is known";
 /// Most steps with an imperfection.
 const STEPS: usize = 4000;
 
@@ -22,11 +26,29 @@ pub(crate) fn find(
     options: &Options,
     collection: &mut Collection,
 ) {
-    if let Some((parameter, from)) = follower.study.imperfection
-        && let Err(why) = imperfection(traced, follower, model, (parameter, from), collection)
-    {
-        let name = &model.parameters[parameter].name;
-        collection.warnings.push(format!("the imperfection `{name}` led to no further branch: {why}"));
+    if let Some((parameter, from)) = follower.study.imperfection {
+        let mut told = Vec::new();
+        for place in PLACES {
+            match imperfection(traced, follower, model, (parameter, from), place, collection) {
+                Ok(()) => {
+                    told.clear();
+                    break;
+                }
+                Err(why) => {
+                    let is_known = why == KNOWN;
+                    told.push(format!("at {:.6e}{}: {why}", traced.axes[0].value(place), collection.unit));
+                    if is_known {
+                        break;
+                    }
+                }
+            }
+        }
+        if !told.is_empty() {
+            let name = &model.parameters[parameter].name;
+            collection
+                .warnings
+                .push(format!("the imperfection `{name}` led to no further branch; {}", told.join("; ")));
+        }
     }
     if follower.study.guesses > 0 {
         for end in [1.0, 0.0] {
@@ -72,16 +94,18 @@ fn guesses(
         }
         traced.take(prepared, parameters);
         from_here(traced, follower, BranchOrigin::Search, collection);
+        drop_if_known(collection);
     }
 }
 
-/// With the imperfection the main parameter goes to the end of its range; there the imperfection is led to its own value;
+/// With the imperfection the main parameter goes to a place in its range; there the imperfection is led to its own value;
 /// the branch that this ends on is followed.
 fn imperfection(
     traced: &mut Traced<'_>,
     follower: &mut Follower<'_>,
     model: &Model,
     (parameter, from): (usize, f64),
+    place: f64,
     collection: &mut Collection,
 ) -> Result<(), String> {
     let own = model.parameters[parameter].value;
@@ -102,16 +126,16 @@ fn imperfection(
     let both = traced.both;
     let other = traced.parameters()[1];
     let kept = traced.exchange(prepared, [main, aside], [start, 0.0], true);
-    let outcome = lead(traced, follower, 1.0).and_then(|()| {
+    let outcome = lead(traced, follower, place).and_then(|()| {
         let here = traced.prepared.clone();
-        traced.exchange(here, [aside, main], [0.0, 1.0], true);
+        traced.exchange(here, [aside, main], [0.0, place], true);
         lead(traced, follower, 1.0)
     });
     let arrived = traced.prepared.clone();
-    traced.exchange(kept, [main, second], [1.0, other], both);
+    traced.exchange(kept, [main, second], [place, other], both);
     outcome?;
     // The same mechanism, with nothing left of the second parameter's change.
-    let model = traced.model_at([1.0, other]).map_err(|_| "the model cannot be made again".to_string())?;
+    let model = traced.model_at([place, other]).map_err(|_| "the model cannot be made again".to_string())?;
     let mut prepared = arrived;
     prepared.adopt(&model).map_err(|error| error.message)?;
     let finished = prepared.finish(follower.tolerance, flexura_nonlinear::PathWork::default(), 0.5);
@@ -119,12 +143,39 @@ fn imperfection(
         return Err(finished.reason.unwrap_or_default());
     }
     let here = prepared.problem.solution(follower.reader.samples);
-    if is_known(collection, (main.value(1.0), main.span), &here) {
-        return Err("it ends on a branch that is known".to_string());
+    if is_known(collection, (main.value(place), main.span), &here) {
+        return Err(KNOWN.to_string());
     }
-    traced.take(prepared, [1.0, other]);
+    traced.take(prepared, [place, other]);
     from_here(traced, follower, BranchOrigin::Imperfection, collection);
+    if drop_if_known(collection) {
+        return Err(KNOWN.to_string());
+    }
     Ok(())
+}
+
+/// Takes the last branch away if it arrives at an end of the range where another one does.
+fn drop_if_known(collection: &mut Collection) -> bool {
+    let Some((last, others)) = collection.branches.split_last() else { return false };
+    let arrives = |branch: &Branch| -> Vec<TracePoint> {
+        let ends = [branch.points.first(), branch.points.last()];
+        let at_end = |point: &&TracePoint| point.kind == PointKind::End && point.solution.is_some();
+        ends.into_iter().flatten().filter(at_end).cloned().collect()
+    };
+    let own = arrives(last);
+    let is_known = others.iter().flat_map(arrives).any(|other| {
+        own.iter().any(|point| {
+            let (Some(p), Some(q)) = (&point.solution, &other.solution) else { return false };
+            let apart = (point.parameter - other.parameter).abs();
+            apart <= 1e-9 * point.parameter.abs().max(1e-300) && same(p, q)
+        })
+    });
+    if is_known {
+        let dropped = collection.branches.len() - 1;
+        collection.branches.pop();
+        collection.known.retain(|known| known.branch != dropped);
+    }
+    is_known
 }
 
 /// Follows the first parameter to a value, whatever lies on the way.

@@ -2,6 +2,7 @@
 
 mod bend45;
 mod clamped_clamped;
+mod columns;
 mod curves;
 mod deep_arch;
 mod elastica;
@@ -13,13 +14,21 @@ mod four_bar;
 mod frame;
 mod helix_wrench;
 mod joints;
+mod lee_frame;
+mod pushed_strip;
 mod robot;
 mod roll_up;
+mod sideways;
+mod slide_law;
+mod snaps;
 mod spring;
 mod strip;
 mod taper;
 mod tendons;
+mod torsion;
 mod tubes;
+mod unfolding;
+mod verdicts;
 
 use crate::Case;
 
@@ -46,6 +55,15 @@ pub fn cases() -> Vec<Case> {
         &joints::CASES,
         &tendons::CASES,
         &tubes::CASES,
+        &columns::CASES,
+        &pushed_strip::CASES,
+        &slide_law::CASES,
+        &torsion::CASES,
+        &sideways::CASES,
+        &snaps::CASES,
+        &lee_frame::CASES,
+        &unfolding::CASES,
+        &verdicts::CASES,
     ]
     .concat()
 }

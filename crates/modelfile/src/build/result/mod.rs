@@ -114,7 +114,10 @@ impl Results<'_, '_> {
         };
         if !is_result {
             let quantity = self.context.parameter(reference, text, silent).map_err(|mut error| {
-                if error.hint.as_deref().is_some_and(|hint| !hint.starts_with("did you mean")) {
+                let output = reference.name().filter(|name| self.has_output(name));
+                if let Some(name) = output {
+                    error.hint = Some(format!("did you mean `output.{name}`?"));
+                } else if error.hint.as_deref().is_some_and(|hint| !hint.starts_with("did you mean")) {
                     error.hint = Some(self.roots());
                 }
                 error
@@ -144,6 +147,10 @@ impl Results<'_, '_> {
         let component = meaning.component.unwrap_or(component);
         let probe = Probe { target: meaning.target, quantity: meaning.quantity, component };
         Ok(Binding::Slot(slot(probes, probe), Kind::Of(meaning.dimension)))
+    }
+
+    fn has_output(&self, name: &str) -> bool {
+        self.outputs.is_some_and(|outputs| outputs.iter().any(|built| built.output.name == name))
     }
 
     fn roots(&self) -> String {

@@ -1,0 +1,67 @@
+//! Where no stability is claimed: loads that have no energy.
+
+use crate::file::File;
+use crate::path::Path;
+use crate::{Case, Row};
+use flexura_solution::PointKind;
+
+pub const CASES: [Case; 1] = [Case {
+    id: "undecided_stability",
+    title: "A follower force on a cantilever (`follower_cantilever.toml`) and a moment of constant direction on a free tip \
+            (`roll_up.toml`): no count of unstable directions at any load but none, and the reason said; the same moment \
+            on an end that turns about one axis only (`hockling_shaft.toml`) is decided",
+    citation: "H. Ziegler, *Principles of Structural Stability* (1968): such loads do work that depends on the way, and \
+               what is unstable shows in motion only",
+    needed: "never a verdict, always the reason",
+    run,
+    closed_form: None,
+}];
+
+/// Points with a load and a verdict, and whether the reason is given, with these words, by the trace and by its last state.
+fn look(text: &str, parameter: &str, range: [f64; 2], words: &str) -> Result<[f64; 2], String> {
+    let followed = File::new(text)?.trace(&[], &Path::of(parameter, range), 1e-8)?;
+    let points = &followed.first()?.points;
+    let decided = points
+        .iter()
+        .filter(|point| point.parameter != 0.0 && matches!(point.kind, PointKind::Regular | PointKind::End))
+        .filter(|point| point.unstable_directions.is_some() || point.stable.is_some());
+    let state = points.last().and_then(|point| point.solution.as_deref());
+    let state = state.ok_or("the last state is not kept")?;
+    let says = |reason: &Option<String>| reason.as_deref().is_some_and(|reason| reason.contains(words));
+    let both = says(&followed.trace.stability_reason)
+        && says(&state.stability_reason)
+        && state.stable.is_none()
+        && state.unstable_directions.is_none();
+    Ok([decided.count() as f64, if both { 0.0 } else { 1.0 }])
+}
+
+fn run() -> Result<Vec<Row>, String> {
+    let mut rows = Vec::new();
+    for (text, parameter, top, words, what) in [
+        (
+            include_str!("../../../../models/follower_cantilever.toml"),
+            "force",
+            10.0,
+            "load.jet: a force that follows what it acts on",
+            "follower force",
+        ),
+        (
+            include_str!("../../../../models/roll_up.toml"),
+            "turns",
+            0.8,
+            "load.tip: a moment that keeps its direction",
+            "moment on a free tip",
+        ),
+    ] {
+        let [decided, silent] = look(text, parameter, [0.0, top], words)?;
+        rows.push(Row::vanishing(format!("points with a verdict, {what}"), decided, 0.0));
+        rows.push(Row::vanishing(format!("is the reason missing, {what}"), silent, 0.0));
+    }
+    let shaft = File::new(include_str!("../../../../models/hockling_shaft.toml"))?;
+    let followed = shaft.trace(&[], &Path::of("torque", [0.0, 0.1]), 1e-8)?;
+    let open = followed.first()?.points.iter().filter(|point| point.unstable_directions.is_none()).count();
+    rows.push(Row::vanishing("points without a verdict, moment about a fixed axis", open as f64, 0.0));
+    let reason = if followed.trace.stability_reason.is_some() { 1.0 } else { 0.0 };
+    rows.push(Row::vanishing("reasons against one", reason, 0.0));
+    Ok(rows)
+}
