@@ -35,8 +35,6 @@ fn norm(v: &[f64; 3]) -> f64 {
 /// A span as short stretches.
 pub(super) struct Cut {
     pub forms: Vec<Form>,
-    /// The stretch with which each shooting segment begins.
-    pub segments: Vec<usize>,
     /// The state at the span's start, before any load there.
     pub start: Plain,
     /// The state at its end, after what jumps there.
@@ -64,10 +62,8 @@ impl Equilibrium {
         let level = self.levels[span];
         let start = self.head_state(span);
         let mut forms = Vec::new();
-        let mut segments = Vec::with_capacity(mesh.segments.len());
         let mut here = start;
         for (k, segment) in mesh.segments.iter().enumerate() {
-            segments.push(forms.len());
             if k == 0 {
                 mesh.first_jumps.iter().for_each(|&j| jump(&description.jumps[j], self.load, &mut here));
             } else {
@@ -119,6 +115,6 @@ impl Equilibrium {
         if !norm(&here.moment).is_finite() {
             return Err(Breakdown::NotFinite);
         }
-        Ok(Cut { forms, segments, start, end: here })
+        Ok(Cut { forms, start, end: here })
     }
 }

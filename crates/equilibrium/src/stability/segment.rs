@@ -29,8 +29,8 @@ pub(super) struct Form {
     pub aa: Matrix6<f64>,
     pub ba: Matrix6<f64>,
     pub bb: Matrix6<f64>,
-    /// The moment at A.
-    pub start_moment: [f64; 3],
+    /// Arc lengths of A and B, m.
+    pub s: [f64; 2],
     /// The moments at both ends, in the section's axes.
     pub section_moments: [V; 2],
     /// The state at B, before what jumps there.
@@ -61,7 +61,7 @@ impl Form {
         let loads = &stretch.piece.loads;
         let directed = loads.iter().any(|l| l.dead_force != [0.0; 3] || l.dead_moment != [0.0; 3]);
         let acting = Acting { jumps: &[], load, pulls };
-        let length = stretch.piece.length;
+        let (length, s_ends) = (stretch.piece.length, stretch.s);
         let stretch = std::slice::from_ref(stretch);
         let (mut p, mut q) = (Matrix6::zeros(), Matrix6::zeros());
         let (mut r, mut s) = (Matrix6::zeros(), Matrix6::zeros());
@@ -133,7 +133,7 @@ impl Form {
             aa: p.tr_mul(&turned) - (rp + rp.transpose()) * 0.5,
             ba: r - turned,
             bb: stiffness,
-            start_moment: start.moment,
+            s: s_ends,
             section_moments: [section_moment(start), section_moment(&end.state)],
             end: end.state,
         })

@@ -125,7 +125,7 @@ fn the_sign_of_the_determinant_follows_the_parity_of_the_count() {
                 assert!(problem.meshes.iter().all(|mesh| mesh.segments.len() == 1), "one layout");
                 let unstable = count(&mut problem, 1);
                 problem.linearise().unwrap();
-                let here = problem.orientation() == (unstable % 2 == 0);
+                let here = problem.orientation() == unstable.is_multiple_of(2);
                 assert_eq!(*parity.get_or_insert(here), here, "{push:?} {i}: {unstable}");
                 seen.push(unstable);
             }

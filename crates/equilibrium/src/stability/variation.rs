@@ -114,14 +114,19 @@ impl Equilibrium {
         self.undecided()
     }
 
-    /// The step of the state that a vector of the second variation at this state stands for.
-    pub fn step_of(&self, variation: &Variation, x: &[f64]) -> Vec<f64> {
-        let mut step = vec![0.0; self.layout.unknowns];
+    /// How bodies move in a vector of the second variation at this state, and the places along every beam that it was cut at: arc
+    /// length (m), motion of the axis (m) and turning (rad).
+    pub fn motions_of(&self, variation: &Variation, x: &[f64]) -> (Vec<Twist>, Vec<Vec<(f64, Twist)>>) {
+        let length = self.lowered.scale.length;
         let value = |plain: usize| variation.columns[plain].at.map_or(0.0, |at| x[at]);
-        for (plain, entry) in step.iter_mut().enumerate().take(self.layout.interface) {
-            *entry = value(plain);
-        }
         let six = |first: usize| Vector6::from_fn(|i, _| value(first + i));
+        let twist = |v: Vector6<f64>| Twist {
+            angular: Vector3::new(v[0], v[1], v[2]),
+            linear: Vector3::new(v[3], v[4], v[5]) * length,
+        };
+        let bodies =
+            (0..self.model.bodies.len()).map(|body| twist(six(self.layout.nodes[body].unknown))).collect();
+        let mut beams = vec![Vec::new(); self.model.beams.len()];
         for (span, (cut, own)) in variation.cuts.iter().zip(&variation.numbers).enumerate() {
             let (slots, description) = (&self.layout.spans[span], &self.lowered.spans[span]);
             let moved = |held: &Held, unknown: usize| {
@@ -131,37 +136,21 @@ impl Equilibrium {
                 });
                 list.iter().map(|(unknown, x)| x * value(*unknown)).sum::<Vector6<f64>>()
             };
-            for (segment, &k) in cut.segments.iter().enumerate() {
-                let form = &cut.forms[k];
-                let before = match own.pose_before(k) {
-                    Some(pose) => six(pose),
-                    None => moved(&self.held_by(&description.start, &slots.start), slots.start.unknown),
-                };
-                let after = match (own.pose(k), &description.end) {
+            let places = &mut beams[description.beam];
+            for (k, form) in cut.forms.iter().enumerate() {
+                if k == 0 {
+                    let start = self.held_by(&description.start, &slots.start);
+                    places.push((form.s[0], twist(moved(&start, slots.start.unknown))));
+                }
+                let end = match (own.pose(k), &description.end) {
                     (Some(pose), _) => six(pose),
                     (None, Some(end)) => moved(&self.held_by(end, &slots.end), slots.end.unknown),
-                    (None, None) => Vector6::zeros(),
+                    (None, None) => continue,
                 };
-                let mut change = -(form.aa * before + form.ba.tr_mul(&after));
-                // From exponential coordinates to a plain change of the moment: less ½ M × θ.
-                let turn = Vector3::new(before[0], before[1], before[2]);
-                let back = Vector3::from(form.start_moment).cross(&turn) * 0.5;
-                (0..3).for_each(|i| change[i] -= back[i]);
-                // Ours is moment, then force.
-                let mut wrench = [0.0; 6];
-                for (i, to) in wrench.iter_mut().enumerate() {
-                    *to = change[(i + 3) % 6];
-                }
-                if segment == 0 {
-                    let slot = &slots.wrench;
-                    step[slot.unknown..slot.unknown + slot.count].copy_from_slice(&wrench[6 - slot.count..]);
-                } else {
-                    let at = slots.inner[segment - 1].unknown;
-                    step[at..at + 6].copy_from_slice(before.as_slice());
-                    step[at + 6..at + 12].copy_from_slice(&wrench);
-                }
+                places.push((form.s[1], twist(end)));
             }
         }
-        step
+        beams.iter_mut().for_each(|places| places.sort_by(|a, b| a.0.total_cmp(&b.0)));
+        (bodies, beams)
     }
 }

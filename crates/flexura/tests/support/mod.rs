@@ -22,7 +22,10 @@ pub struct Run {
 /// A bundled model with a study put behind it.
 pub fn bundled(file: &str, study: &str) -> String {
     let path = format!("{}/../../models/{file}", env!("CARGO_MANIFEST_DIR"));
-    format!("{}\n[study.path]\nkind = \"trace\"\n{study}\n", std::fs::read_to_string(path).unwrap())
+    let text = std::fs::read_to_string(path).unwrap();
+    // Without its own studies.
+    let text = text.split("[study.").next().unwrap_or_default();
+    format!("{text}\n[study.path]\nkind = \"trace\"\n{study}\n")
 }
 
 /// Follows the first trace of a text, whatever comes out.

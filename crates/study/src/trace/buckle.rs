@@ -7,14 +7,15 @@
 //! dependence on the load is linearised; the error goes with even powers of their length, of which three approximations take away
 //! two (Romberg).
 
-use super::record::Reader;
+use super::record::normalise;
 use super::ritz;
 use crate::family::{SMALL, size_of};
 use crate::{Family, Options, Prepared, ProblemError};
 use flexura_equilibrium::{Rate, Variation};
 use flexura_model::{BuckleStudy, Model, StudyKind};
 use flexura_nonlinear::{Breakdown, NewtonEnd, NewtonOptions, System, converge};
-use flexura_solution::{Buckling, BucklingMode, Status};
+use flexura_solution::{BeamSample, Buckling, BucklingMode, Direction, Solution, Status};
+use flexura_spatial::{Twist, Vector3};
 
 /// Stretches that a smooth part of a beam is cut into, for three approximations.
 const PARTS: [usize; 3] = [12, 24, 48];
@@ -57,7 +58,19 @@ pub fn buckle(
     if outcome.status != Status::Converged {
         return Ok(Buckling { parameter: study.parameter, at: study.at, solution, modes: Vec::new() });
     }
-    if let Some(why) = prepared.problem.without_energy() {
+    // A load may be nothing here and follow as soon as it is something.
+    let beside = match study.parameter {
+        Some(parameter) => {
+            let size = size_of(prepared.problem.model(), parameter, prepared.problem.units(), 1.0);
+            family
+                .model(&[(parameter, study.at + 1e-3 * size)])
+                .ok()
+                .and_then(|model| Prepared::new(&model).ok())
+                .and_then(|beside| beside.problem.without_energy())
+        }
+        None => None,
+    };
+    if let Some(why) = prepared.problem.without_energy().or(beside) {
         return Err(wrong(
             format!("has no linear buckling: {why}"),
             "apply the moment through a joint to the ground, or use loads that keep their direction",
@@ -82,7 +95,6 @@ pub fn buckle(
             "choose another value of `at`",
         )
     };
-    let reader = Reader { watched: Vec::new(), samples: options.samples };
     let wanted = study.count.max(1);
     let mut levels: Vec<Vec<f64>> = Vec::with_capacity(PARTS.len());
     let mut modes = Vec::new();
@@ -105,8 +117,8 @@ pub fn buckle(
                     unsure += 1;
                     continue;
                 }
-                let step = prepared.problem.step_of(&pencil.base, x);
-                let direction = reader.direction(&mut prepared.problem, &step);
+                let (bodies, places) = prepared.problem.motions_of(&pencil.base, x);
+                let direction = mode(&solution, bodies, &places, prepared.problem.units().0);
                 modes.push(BucklingMode { value: study.at + value, error_estimate, direction });
             }
         }
@@ -121,6 +133,33 @@ pub fn buckle(
         solution.warnings.push(format!("only {} critical values were found", modes.len()));
     }
     Ok(Buckling { parameter: study.parameter, at: study.at, solution, modes })
+}
+
+/// A mode at the samples of the equilibrium: between the places where beams were cut turnings go in straight lines, and displacements by
+/// cubics whose slope is that of the turned axis.
+fn mode(solution: &Solution, bodies: Vec<Twist>, places: &[Vec<(f64, Twist)>], length: f64) -> Direction {
+    let beams = solution.beams.iter().zip(places).map(|(beam, places)| {
+        let at = |sample: &BeamSample| -> Twist {
+            let after = places.partition_point(|(s, _)| *s < sample.s).clamp(1, places.len().max(2) - 1);
+            let (Some((a, first)), Some((b, last))) = (places.get(after - 1), places.get(after)) else {
+                return Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
+            };
+            let (width, t) = (b - a, ((sample.s - a) / (b - a)).clamp(0.0, 1.0));
+            let axis = sample.pose.rotation * Vector3::x();
+            let slope = |twist: &Twist| twist.angular.cross(&axis) * width;
+            let (u, v) = (t * t * (3.0 - 2.0 * t), t * (1.0 - t));
+            Twist {
+                angular: first.angular * (1.0 - t) + last.angular * t,
+                linear: first.linear * (1.0 - u)
+                    + last.linear * u
+                    + (slope(first) * (1.0 - t) - slope(last) * t) * v,
+            }
+        };
+        beam.samples.iter().map(at).collect()
+    });
+    let mut direction = Direction { beams: beams.collect(), bodies };
+    normalise(&mut direction, length);
+    direction
 }
 
 /// The value for stretches of no length, from those at two coarser levels and the finest, and its estimated error.
