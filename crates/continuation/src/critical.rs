@@ -192,13 +192,29 @@ fn derivatives<P: Problem>(
             way[k] = -part * width;
             Ok([up, conditions(&surface.at(problem, value, way)?, fold)])
         };
-        // Near the end of what exists a shorter difference may do.
-        let (part, [up, down]) = match sides(1.0) {
-            Ok(found) => (1.0, found),
-            Err(_) => (SHORTER, sides(SHORTER)?),
+        // Near the end of what exists a shorter difference may do; at the very end, one to one side.
+        let found = match sides(1.0) {
+            Ok(found) => Ok((2.0, found)),
+            Err(_) => sides(SHORTER).map(|found| (2.0 * SHORTER, found)),
+        };
+        let (part, [up, down]) = match found {
+            Ok(found) => found,
+            Err(miss) => {
+                let here = conditions(value, fold);
+                let mut one = |sign: f64| -> Result<[f64; 2], Miss> {
+                    let mut way = [0.0; 3];
+                    way[k] = sign * SHORTER * width;
+                    Ok(conditions(&surface.at(problem, value, way)?, fold))
+                };
+                match (one(1.0), one(-1.0)) {
+                    (Ok(up), _) => (SHORTER, [up, here]),
+                    (_, Ok(down)) => (SHORTER, [here, down]),
+                    _ => return Err(miss),
+                }
+            }
         };
         for i in 0..2 {
-            rows[i][k] = (up[i] - down[i]) / (2.0 * part * unit);
+            rows[i][k] = (up[i] - down[i]) / (part * unit);
         }
     }
     value.point.restore(problem)?;

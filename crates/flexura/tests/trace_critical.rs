@@ -57,14 +57,13 @@ fn a_curve_of_pitchforks_is_made_of_the_pitchforks_of_single_paths() {
     }
 }
 
-/// Bounds of what one path costs: a change that makes it work more shows here.
+/// What one path costs: a change that makes it work more shows here. The tangent is made again where a fold may be near.
 #[test]
 fn a_quiet_path_makes_one_tangent_a_point() {
     let text = bundled("strip_on_slope.toml", "parameter = \"push\"\nrange = [0, 25]\nsteps = 90");
     let work = traced(&text, &[], 1e-8).trace.work;
-    assert!((90..=110).contains(&work.points) && work.refused == 0, "{work:?}");
-    assert!(work.factorisations <= 125 && work.residuals <= 385, "{work:?}");
-    assert!(work.inertias <= work.points + 1, "{work:?}");
+    let counts = (work.points, work.refused, work.factorisations, work.residuals, work.inertias);
+    assert_eq!(counts, (105, 0, 137, 392, 106));
 }
 
 #[test]

@@ -387,5 +387,10 @@ fn verdict(trace: &Trace) -> (Status, Option<String>) {
             }
         }
     }
+    for end in trace.critical.iter().flat_map(|curve| &curve.ends) {
+        if let BranchEnd::Stalled(why) = end {
+            return (Status::Stalled, Some(format!("the critical curve ends before its range does: {why}")));
+        }
+    }
     (Status::Converged, None)
 }
