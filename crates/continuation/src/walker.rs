@@ -3,11 +3,12 @@
 //! A step is predicted along the path's tangent, bent as it bent before, and must prove that it stays on the path: the
 //! prediction is near, Newton contracts at once, and the direction changes little. Between two points the sign of det J, the sign of
 //! the parameter's rate and the count of unstable directions tell what was passed; what cannot be told apart is looked at
-//! again in shorter steps.
+//! again in shorter steps (`passed`).
+
+mod passed;
 
 use crate::corrector::{Limits, Miss, between, correct, settle};
-use crate::locate::{Bracket, Special, locate};
-use crate::multiple::{From, locate_multiple};
+use crate::locate::Special;
 use crate::problem::{Point, Problem, Refusal, Tangent, slope};
 use flexura_nonlinear::{Breakdown, System};
 
@@ -107,12 +108,6 @@ pub struct Walker {
 
 /// Size of a correction below which a step's tangent is made anew: what is left to correct then is nothing to the tangent.
 const LATE: f64 = 1e-4;
-
-/// Rate of the parameter along the path below which a fold may be near.
-const FLAT: f64 = 0.05;
-
-/// How often the way between two points is halved at most, to tell apart what lies on it.
-const DEPTH: usize = 9;
 
 impl Walker {
     /// Starts at the present solution, towards larger (`1.0`) or smaller (`-1.0`) parameters.
@@ -283,7 +278,7 @@ impl Walker {
                         self.work.refused += 1;
                         continue;
                     }
-                    match self.passed(problem, &self.here, &place, (&self.here, &place), DEPTH) {
+                    match self.passed(problem, &self.here, &place, (&self.here, &place), passed::DEPTH) {
                         Ok(specials) => {
                             let left = std::mem::replace(&mut self.here, place);
                             self.before = Some((left.tangent.clone(), width));
@@ -400,30 +395,6 @@ impl Walker {
         same_way && along > 0.0 && along <= 1.05 * width && aside <= 0.25 * width
     }
 
-    /// May something lie between the present point and the next, by what is known of both?
-    fn may_hold(&self, next: &Place) -> bool {
-        let here = &self.here;
-        let near = |place: &Place| place.tangent.parameter.abs() < FLAT;
-        here.positive != next.positive
-            || here.tangent.parameter * next.tangent.parameter < 0.0
-            || here.index != next.index
-            || near(here)
-            || near(next)
-    }
-
-    /// Makes tangent, direction and orientation anew at a point, where those at hand are of a state before its last correction.
-    fn exactly<P: Problem>(&self, problem: &mut P, place: &mut Place) -> Result<(), Refusal> {
-        place.point.restore(problem)?;
-        problem.system().linearise()?;
-        let (slope, mut tangent) = direction_here(problem)?;
-        if tangent.product(problem.system(), &place.tangent.step, place.tangent.parameter) < 0.0 {
-            tangent.scale(-1.0);
-        }
-        place.positive = problem.system().orientation();
-        (place.slope, place.tangent) = (slope, tangent);
-        place.point.restore(problem)
-    }
-
     fn try_step<P: Problem>(&mut self, problem: &mut P, width: f64) -> Result<(Place, f64), (Miss, f64)> {
         self.here.point.restore(problem).map_err(|refusal| (Miss::from(refusal), 0.3))?;
         if !self.is_tangent_here {
@@ -502,88 +473,6 @@ impl Walker {
             slope,
         };
         Ok((place, growth))
-    }
-
-    /// What lies between two neighbouring points. What cannot be told apart is halved, `depth` times at most. Err where it
-    /// cannot be told then: the two do not lie on one path.
-    fn passed<P: Problem>(
-        &self,
-        problem: &mut P,
-        from: &Place,
-        to: &Place,
-        whole: (&Place, &Place),
-        depth: usize,
-    ) -> Result<Vec<Special>, ()> {
-        let turned = from.tangent.parameter * to.tangent.parameter < 0.0;
-        let flipped = from.positive != to.positive;
-        let change = match (from.index, to.index) {
-            (Some(a), Some(b)) => Some(a.abs_diff(b)),
-            _ => None,
-        };
-        // Where the count is made on another mesh than det J, it may change a little aside; the ends of the whole step then say how it
-        // changes.
-        let index = match change {
-            Some(0) => [whole.0.index, whole.1.index],
-            _ => [from.index, to.index],
-        };
-        let bracket = || Bracket { before: &from.point, after: &to.point, tangent: &from.tangent, index };
-        let found = match (flipped, turned, change) {
-            (false, false, None | Some(0 | 1)) => return Ok(Vec::new()),
-            (true, true, None | Some(0 | 1)) => locate(problem, &bracket(), true),
-            (true, false, None | Some(0 | 1)) => locate(problem, &bracket(), false),
-            // The side branch of a pitchfork turns back where it meets the other.
-            (false, true, None | Some(0 | 1)) => locate(problem, &bracket(), false),
-            (_, _, Some(count)) if depth == 0 && count > 1 => {
-                let tolerance = self.options.tolerance;
-                let length = to.arc - from.arc;
-                let from = From { point: &from.point, tangent: &from.tangent, length, tolerance };
-                locate_multiple(problem, &from, count)
-            }
-            _ => Ok(None),
-        };
-        if let Ok(Some(special)) = found {
-            return Ok(vec![special]);
-        }
-        if depth == 0 {
-            return Err(());
-        }
-        // Not in the middle, where symmetry likes to put what is sought.
-        let middle = self.place_between(problem, from, to, 0.47).map_err(|_| ())?;
-        let mut all = self.passed(problem, from, &middle, whole, depth - 1)?;
-        all.extend(self.passed(problem, &middle, to, whole, depth - 1)?);
-        Ok(all)
-    }
-
-    /// A point between two neighbouring points of the path.
-    fn place_between<P: Problem>(
-        &self,
-        problem: &mut P,
-        from: &Place,
-        to: &Place,
-        part: f64,
-    ) -> Result<Place, Miss> {
-        let whole = between(problem, &from.point, &to.point);
-        from.point.restore(problem)?;
-        let step: Vec<f64> = whole.step.iter().map(|v| part * v).collect();
-        let reach = whole.size(problem.system());
-        problem.system().retract(&step);
-        let parameters = from.point.parameters;
-        problem.set_parameters([parameters[0] + part * whole.parameter, parameters[1]])?;
-        let limits = Limits { tolerance: self.options.tolerance, farthest: 0.5, reach, renewed_below: 0.0 };
-        correct(problem, &to.tangent, None, &limits)?;
-        problem.system().linearise()?;
-        let (slope, mut tangent) = direction_here(problem)?;
-        if tangent.product(problem.system(), &whole.step, whole.parameter) < 0.0 {
-            tangent.scale(-1.0);
-        }
-        Ok(Place {
-            point: Point::here(problem),
-            positive: problem.system().orientation(),
-            index: problem.index(),
-            arc: from.arc + part * (to.arc - from.arc),
-            tangent,
-            slope,
-        })
     }
 }
 

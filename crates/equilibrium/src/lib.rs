@@ -29,6 +29,7 @@ mod extract;
 mod head;
 mod held;
 mod layout;
+mod lift;
 mod lower;
 mod mesh;
 mod neighbour;

@@ -8,7 +8,7 @@ use crate::mesh::{Level, SpanMesh};
 use crate::shooting::{Plain, SegmentEnd};
 use flexura_mechanics::joint::Configuration;
 use flexura_model::{BeamPoint, JointKind, LoadId, LoadTarget, Model};
-use flexura_nonlinear::{BLOCK, Breakdown, Chain, Lift, Liftable, Matrix, System};
+use flexura_nonlinear::{BLOCK, Breakdown, Chain, Lift, Matrix, System};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, exp, log};
 
 /// A model made ready to be solved, again and again, from rest or from where it stands.
@@ -33,8 +33,8 @@ pub struct Equilibrium {
     /// Is the tangent factorised, in the present layout?
     pub(crate) factorised: bool,
     /// An entry that is lifted in tangents, and by how much it was in the last one.
-    lift: Option<Lift>,
-    lifted_by: f64,
+    pub(crate) lift: Option<Lift>,
+    pub(crate) lifted_by: f64,
     /// The second variation.
     pub(crate) second: crate::stability::Second,
     /// An earlier tangent, factorised.
@@ -47,7 +47,7 @@ pub struct Equilibrium {
     pub(crate) levels: Vec<Level>,
     /// Levels to be expected at the full load.
     pub(crate) expected: Vec<Level>,
-    weights: Vec<f64>,
+    pub(crate) weights: Vec<f64>,
     scratch: Vec<f64>,
     /// The step by which the state was last moved.
     pub(crate) last_step: Vec<f64>,
@@ -562,46 +562,5 @@ impl System for Equilibrium {
         let changed = self.resegment();
         self.restep(self.accuracy, true);
         changed
-    }
-}
-
-impl Liftable for Equilibrium {
-    fn lift_rows(&self) -> Vec<usize> {
-        // What stands in the rows of an inner state comes out of the elimination of those before it.
-        let inner: Vec<usize> =
-            self.layout.spans.iter().filter_map(|s| s.inner.last().map(|i| i.unknown)).collect();
-        (0..self.layout.interface)
-            .filter(|row| !inner.iter().any(|u| (*u..u + BLOCK).contains(row)))
-            .collect()
-    }
-
-    fn lift_columns(&self) -> usize {
-        self.layout.interface
-    }
-
-    fn set_lift(&mut self, lift: Option<Lift>) {
-        self.lift = lift;
-        self.factorised = false;
-    }
-
-    fn lifted_by(&self) -> f64 {
-        self.lifted_by
-    }
-
-    fn unit_step(&mut self, row: usize, step: &mut [f64]) {
-        self.r.fill(0.0);
-        self.gaps.iter_mut().flatten().for_each(|gap| *gap = [0.0; BLOCK]);
-        self.r[row] = -1.0;
-        self.newton_step(step);
-        self.counts.newton_steps -= 1;
-    }
-
-    fn inverse_step(&mut self, x: &[f64], step: &mut [f64]) {
-        self.gaps.iter_mut().flatten().for_each(|gap| *gap = [0.0; BLOCK]);
-        for ((r, x), w) in self.r.iter_mut().zip(x).zip(&self.weights) {
-            *r = -x * w * w;
-        }
-        self.newton_step(step);
-        self.counts.newton_steps -= 1;
     }
 }

@@ -74,7 +74,8 @@ fn across(mode: &BucklingMode) -> Vec<f64> {
 
 #[test]
 fn shapes_are_those_of_the_textbooks() {
-    let shapes: [(&str, fn(f64) -> f64); 3] = [
+    type Shape = fn(f64) -> f64;
+    let shapes: [(&str, Shape); 3] = [
         ("euler_clamped_free.toml", |t| 1.0 - (0.5 * PI * t).cos()),
         ("euler_pinned_pinned.toml", |t| (PI * t).sin()),
         ("euler_clamped_clamped.toml", |t| 0.5 * (1.0 - (TAU * t).cos())),
