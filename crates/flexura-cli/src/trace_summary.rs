@@ -292,7 +292,6 @@ fn crossing_words(crossing: Crossing) -> String {
         Crossing::Pitchfork => "pitchfork".to_owned(),
         Crossing::Transcritical => "transcritical crossing".to_owned(),
         Crossing::Multiple(count) => format!("branch point, {count} directions"),
-        Crossing::Simple => "branch point".to_owned(),
     }
 }
 

@@ -140,8 +140,6 @@ pub enum Crossing {
     Transcritical,
     /// Several directions give way at once, of which this many.
     Multiple(usize),
-    /// A simple one that could not be told further.
-    Simple,
 }
 
 /// A small motion: of every sample of every beam, and of every body. The largest displacement is one metre, or the

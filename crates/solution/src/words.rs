@@ -42,7 +42,6 @@ impl Crossing {
             Crossing::Pitchfork => "pitchfork",
             Crossing::Transcritical => "transcritical",
             Crossing::Multiple(_) => "multiple",
-            Crossing::Simple => "simple",
         }
     }
 }

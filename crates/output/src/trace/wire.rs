@@ -75,8 +75,8 @@ pub struct PointDocument {
     pub arc: f64,
     /// "regular", "fold", "branch", "event" or "end".
     pub kind: &'static str,
-    /// Of a branch point: "supercritical_pitchfork", "subcritical_pitchfork", "pitchfork", "transcritical", "multiple" or
-    /// "simple".
+    /// Of a branch point: "supercritical_pitchfork", "subcritical_pitchfork", "pitchfork", "transcritical" or
+    /// "multiple".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crossing: Option<&'static str>,
     /// Of an event: what was asked for.
