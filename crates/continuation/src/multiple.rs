@@ -133,9 +133,8 @@ fn inverse(columns: Vec<Vec<f64>>) -> Option<Vec<f64>> {
         }
         rows[i].iter_mut().for_each(|v| *v /= top);
         let upper = rows[i].clone();
-        for (j, row) in rows.iter_mut().enumerate().filter(|(j, _)| *j != i) {
+        for (_, row) in rows.iter_mut().enumerate().filter(|(j, _)| *j != i) {
             let factor = row[i];
-            let _ = j;
             row.iter_mut().zip(&upper).for_each(|(v, u)| *v -= factor * u);
         }
     }

@@ -98,7 +98,7 @@ pub fn trace(
     if outcome.status != Status::Converged {
         return Ok(trace);
     }
-    let second = critical::second_axis(model, study, axis);
+    let second = critical::second_axis(study, axis);
     let at = [axis.scaled(study.start), second.scaled_or_zero(model)];
     let mut traced = Traced::new(prepared, family, [axis, second], at, study.critical.is_some());
     from_here(&mut traced, &mut follower, BranchOrigin::Rest, &mut collection);

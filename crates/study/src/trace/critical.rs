@@ -11,7 +11,7 @@ use flexura_solution::{BranchEnd, CriticalCurve, PointKind, TracePoint};
 const FINER: f64 = 0.01;
 
 /// The second axis: from the range of the critical study, or none.
-pub(crate) fn second_axis(_: &Model, study: &TraceStudy, first: Axis) -> Axis {
+pub(crate) fn second_axis(study: &TraceStudy, first: Axis) -> Axis {
     match &study.critical {
         Some(critical) => Axis {
             parameter: critical.parameter,
