@@ -6,7 +6,8 @@ use crate::step::{Outcome, entries, read, root};
 const FLOORS: &[&[&str]] = &[
     &["spatial", "expression", "nonlinear"],
     &["model", "continuation"],
-    &["solution", "geometry", "mechanics"],
+    &["geometry"],
+    &["solution", "mechanics"],
     &["modelfile", "equilibrium", "post"],
     &["study"],
     &["output"],

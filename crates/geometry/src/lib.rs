@@ -2,6 +2,7 @@
 //!
 //! * [`RestShape`] turns a curve and a rule for the section's axes into rest curvatures k1, k2, k3 along
 //!   the arc length, and into the stress-free pose of every section.
+//! * [`Contour`] is the boundary of a body in a plane by its arc length: point, tangent angle, curvature.
 //! * [`compliance`], [`stiffness`], [`properties`], [`mass_per_length`], [`peak_stress`] and [`outline`]
 //!   are the laws of a cross section.
 //!
@@ -14,6 +15,7 @@
 
 mod cells;
 mod constant;
+mod contour;
 mod error;
 mod frame;
 mod legendre;
@@ -24,6 +26,7 @@ mod section;
 mod smooth;
 mod spline;
 
+pub use contour::{BoundaryError, Contour, ContourPoint, FunctionSpline};
 pub use error::{SectionError, ShapeError};
 pub use rest_shape::RestShape;
 pub use section::{

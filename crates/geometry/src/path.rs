@@ -11,13 +11,15 @@ pub(crate) enum Path {
     Parametric { position: [Function; 3], range: [f64; 2] },
     /// Through points.
     Spline(Spline),
+    /// (a cos t, b sin t, 0).
+    Ellipse { semi_axes: [f64; 2], range: [f64; 2] },
 }
 
 impl Path {
     /// The parameter values between which the path is smooth, the ends included.
     pub fn knots(&self) -> Vec<f64> {
         match self {
-            Path::Parametric { range, .. } => range.to_vec(),
+            Path::Parametric { range, .. } | Path::Ellipse { range, .. } => range.to_vec(),
             Path::Spline(spline) => spline.knots().to_vec(),
         }
     }
@@ -30,6 +32,12 @@ impl Path {
                 std::array::from_fn(|i| Vector3::new(x[i], y[i], z[i]))
             }
             Path::Spline(spline) => spline.jet(t),
+            Path::Ellipse { semi_axes: [a, b], .. } => {
+                let (sin, cos) = t.sin_cos();
+                let [x, y] = [a * cos, b * sin];
+                let [u, v] = [-a * sin, b * cos];
+                [Vector3::new(x, y, 0.0), Vector3::new(u, v, 0.0), Vector3::new(-x, -y, 0.0), Vector3::new(-u, -v, 0.0)]
+            }
         }
     }
 

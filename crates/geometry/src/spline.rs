@@ -40,6 +40,23 @@ impl Spline {
         Ok(Self { knots, points: points.to_vec(), slopes })
     }
 
+    /// The spline with the given values at given, increasing knots.
+    pub fn over(knots: &[f64], points: &[Vector3<f64>]) -> Self {
+        Self { knots: knots.to_vec(), points: points.to_vec(), slopes: slopes(knots, points) }
+    }
+
+    /// The closed spline through the points (metres), which leads from the last back to the first and is smooth there too.
+    pub fn closed(points: &[Vector3<f64>]) -> Result<Self, ShapeError> {
+        if points.len() < 3 {
+            return Err(ShapeError::TooFewPoints { count: points.len() });
+        }
+        let mut around = points.to_vec();
+        around.push(points[0]);
+        let mut spline = Self::new(&around)?;
+        spline.slopes = closed_slopes(&spline.knots, &around);
+        Ok(spline)
+    }
+
     /// Cumulative chord length at the points: the parameter's range and where the third derivative jumps.
     pub fn knots(&self) -> &[f64] {
         &self.knots
@@ -117,9 +134,86 @@ fn slopes(knots: &[f64], points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     slopes
 }
 
+/// The same where the last point is the first: the rows are cyclic, and Sherman and Morrison's formula leads them back to
+/// tridiagonal ones (Press et al., *Numerical Recipes*, 2.7).
+fn closed_slopes(knots: &[f64], points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    let n = points.len() - 1;
+    let h: Vec<f64> = knots.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let m: Vec<Vector3<f64>> = (0..n).map(|i| (points[i + 1] - points[i]) / h[i]).collect();
+    let before = |i: usize| (i + n - 1) % n;
+    let mut diagonal: Vec<f64> = (0..n).map(|i| 2.0 * (h[before(i)] + h[i])).collect();
+    // The corners: row 0 holds h_0 at d_{n-1}, row n-1 holds h_{n-2} at d_0.
+    let (top, bottom) = (h[0], h[before(n - 1)]);
+    let gamma = -diagonal[0];
+    diagonal[0] -= gamma;
+    diagonal[n - 1] -= top * bottom / gamma;
+    // Row by row: three components of the slope, and the correction vector (gamma, 0, .., bottom).
+    let mut right: Vec<[f64; 4]> = (0..n)
+        .map(|i| {
+            let value = (m[before(i)] * h[i] + m[i] * h[before(i)]) * 3.0;
+            let corner = if i == 0 {
+                gamma
+            } else if i == n - 1 {
+                bottom
+            } else {
+                0.0
+            };
+            [value.x, value.y, value.z, corner]
+        })
+        .collect();
+    for i in 1..n {
+        // Lower entry of row i is h_i, upper entry of the row before is h_{i-2}.
+        let factor = h[i] / diagonal[i - 1];
+        diagonal[i] -= factor * h[before(i - 1)];
+        for c in 0..4 {
+            right[i][c] -= factor * right[i - 1][c];
+        }
+    }
+    for i in (0..n).rev() {
+        for c in 0..4 {
+            let above = if i + 1 < n { right[i + 1][c] * h[before(i)] } else { 0.0 };
+            right[i][c] = (right[i][c] - above) / diagonal[i];
+        }
+    }
+    let ratio = top / gamma;
+    let denominator = 1.0 + right[0][3] + ratio * right[n - 1][3];
+    let mut slopes: Vec<Vector3<f64>> = (0..n)
+        .map(|i| {
+            let part = |c: usize| {
+                right[i][c] - right[i][3] * (right[0][c] + ratio * right[n - 1][c]) / denominator
+            };
+            Vector3::new(part(0), part(1), part(2))
+        })
+        .collect();
+    slopes.push(slopes[0]);
+    slopes
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_closed_spline_is_twice_continuously_differentiable_everywhere() {
+        for count in [3, 4, 7] {
+            let points: Vec<_> = (0..count)
+                .map(|i| {
+                    let t = f64::from(i) * 5.9 / f64::from(count);
+                    Vector3::new(2.0 * t.cos(), t.sin(), 0.0)
+                })
+                .collect();
+            let spline = Spline::closed(&points).expect("good points");
+            let knots = spline.knots().to_vec();
+            let last = knots[knots.len() - 1];
+            for (i, knot) in knots.iter().enumerate() {
+                let after = if i + 1 == knots.len() { spline.jet(1e-12) } else { spline.jet(knot + 1e-12) };
+                let before = if i == 0 { spline.jet(last - 1e-12) } else { spline.jet(knot - 1e-12) };
+                for order in 0..3 {
+                    assert!((before[order] - after[order]).norm() < 1e-10, "{count} {i} {order}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn the_spline_interpolates_and_is_twice_continuously_differentiable() {

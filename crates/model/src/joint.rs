@@ -1,6 +1,6 @@
 //! Joints: which motion they leave free, and what drives, loads or springs it.
 
-use crate::{Frame, Mount};
+use crate::{Contact, Frame, Mount, RollingCoordinate};
 use flexura_spatial::{Pose, Vector3};
 
 /// A joint between a parent (carries the fixed frame F) and a child (carries the moving frame M).
@@ -26,8 +26,10 @@ pub struct JointLaw {
     /// Unit axis in F's axes; unused by weld, spherical and free. Of a planar joint it is the plane's normal.
     pub axis: Vector3<f64>,
     /// A second unit axis: of a universal joint the one that turns with M (in F's axes where M coincides with F);
-    /// of a planar joint the direction of x, at right angles to the normal. Unused by the others.
+    /// of a planar or rolling joint the direction of x, at right angles to the normal. Unused by the others.
     pub second_axis: Vector3<f64>,
+    /// What touches what: of rolling and contact joints, and of these alone.
+    pub contact: Option<Box<Contact>>,
     /// One per coordinate, in the kind's order.
     pub coordinates: Vec<CoordinateLaw>,
 }
@@ -36,7 +38,8 @@ impl JointLaw {
     /// A law of the given kind whose coordinates are all free and unloaded.
     pub fn free(kind: JointKind, axis: Vector3<f64>) -> Self {
         let second_axis = across(&axis);
-        Self { kind, axis, second_axis, coordinates: vec![CoordinateLaw::default(); kind.freedoms()] }
+        let coordinates = vec![CoordinateLaw::default(); kind.freedoms()];
+        Self { kind, axis, second_axis, contact: None, coordinates }
     }
 
     /// No motion at all: a clamp.
@@ -79,6 +82,12 @@ pub enum JointKind {
     Planar,
     /// No constraint; the position of M's origin in F and the rotation vector from F to M.
     Free,
+    /// A boundary of the child rolls and slides on one of the parent, in the plane across the axis, with x along the second
+    /// axis; one coordinate.
+    Rolling(RollingCoordinate),
+    /// A surface of the child touches one of the parent and slides on it without friction. Coordinates as of `Free`, of
+    /// which the contact leaves five independent.
+    Contact,
 }
 
 impl JointKind {
@@ -86,10 +95,10 @@ impl JointKind {
     pub fn freedoms(self) -> usize {
         match self {
             JointKind::Weld => 0,
-            JointKind::Revolute | JointKind::Prismatic => 1,
+            JointKind::Revolute | JointKind::Prismatic | JointKind::Rolling(_) => 1,
             JointKind::Cylindrical | JointKind::Universal => 2,
             JointKind::Spherical | JointKind::Planar => 3,
-            JointKind::Free => 6,
+            JointKind::Free | JointKind::Contact => 6,
         }
     }
 
@@ -104,7 +113,9 @@ impl JointKind {
             JointKind::Universal => &[Angle, Angle],
             JointKind::Spherical => &[Angle, Angle, Angle],
             JointKind::Planar => &[Length, Length, Angle],
-            JointKind::Free => &[Length, Length, Length, Angle, Angle, Angle],
+            JointKind::Free | JointKind::Contact => &[Length, Length, Length, Angle, Angle, Angle],
+            JointKind::Rolling(RollingCoordinate::Arc) => &[Length],
+            JointKind::Rolling(_) => &[Angle],
         }
     }
 
@@ -118,7 +129,10 @@ impl JointKind {
             JointKind::Universal => &["first", "second"],
             JointKind::Spherical => &["x", "y", "z"],
             JointKind::Planar => &["x", "y", "angle"],
-            JointKind::Free => &["x", "y", "z", "rx", "ry", "rz"],
+            JointKind::Free | JointKind::Contact => &["x", "y", "z", "rx", "ry", "rz"],
+            JointKind::Rolling(RollingCoordinate::Turning) => &["turning"],
+            JointKind::Rolling(RollingCoordinate::Angle) => &["angle"],
+            JointKind::Rolling(RollingCoordinate::Arc) => &["arc"],
         }
     }
 }

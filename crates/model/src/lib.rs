@@ -8,6 +8,7 @@
 mod beam;
 mod body;
 mod cable;
+mod contact;
 mod inverse;
 mod joint;
 mod load;
@@ -22,6 +23,9 @@ mod validate;
 pub use beam::{Beam, BeamTheory, Curve, Distributed, End, LoadAxes, SectionFrame};
 pub use body::{Body, Frame, Mount};
 pub use cable::{Cable, CableLaw, Guide};
+pub use contact::{
+    Boundary, BoundaryCurve, Contact, Rolling, RollingCoordinate, Side, Slide, Surface, Surfaces,
+};
 pub use inverse::{Target, Unknown};
 pub use joint::{
     CoordinateKind, CoordinateLaw, Coupling, CouplingTerm, Drive, Joint, JointKind, JointLaw, Limits, across,

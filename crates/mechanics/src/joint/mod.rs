@@ -9,12 +9,16 @@ mod free;
 mod planar;
 mod prismatic;
 mod revolute;
+mod rolling;
 mod spherical;
 mod universal;
 mod weld;
 
-use flexura_model::{JointKind, JointLaw};
+pub use rolling::{ContactError, RollingLaw};
+
+use flexura_model::{Contact, JointKind, JointLaw};
 use flexura_spatial::{Pose, Twist, Vector3};
+use std::sync::Arc;
 
 /// Most numbers that the configuration of a joint takes (a position and a quaternion).
 pub const MAX_CONFIGURATION: usize = 7;
@@ -71,18 +75,63 @@ pub trait Kinematics {
     fn nearest(&self, pose: &Pose) -> Configuration;
 }
 
-/// A joint of any kind.
+/// Where and how two bodies touch. SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactState {
+    /// The contact in the axes of M and of F.
+    pub points: [Vector3<f64>; 2],
+    /// Unit normal from the parent to the child, in F's axes.
+    pub normal: Vector3<f64>,
+    /// Unit tangent in which the contact travels on the parent as the coordinate grows, in F's axes.
+    pub direction: Vector3<f64>,
+    /// The boundaries' own parameters there, of child and parent; one of a curve, two of a surface.
+    pub parameters: [[f64; 2]; 2],
+    /// Radii of curvature of child and parent, negative where hollow; None where straight.
+    pub radii: [Option<f64>; 2],
+    /// How far the contact has rolled on the parent, and the child slid on it, since coordinate zero.
+    pub travel: [f64; 2],
+    /// Their derivatives by the coordinate.
+    pub rates: [f64; 2],
+    /// The parent's hollow is there wider than the child; otherwise they would cut into each other.
+    pub fits: bool,
+}
+
+/// A joint of any kind.
+#[derive(Clone, Debug)]
 pub struct Joint {
     kind: JointKind,
     axis: Vector3<f64>,
     second_axis: Vector3<f64>,
+    rolling: Option<rolling::Rolling>,
 }
 
 impl Joint {
-    /// The kinematics of a law; its axes must be of unit length.
-    pub fn new(law: &JointLaw) -> Self {
-        Self { kind: law.kind, axis: law.axis, second_axis: law.second_axis }
+    /// The kinematics of a law, whose axes must be of unit length, with lengths in units of `unit` metres. `offset` is X_FM in
+    /// the initial poses (SI), from which a contact is found.
+    ///
+    /// # Errors
+    /// A contact that makes no sense.
+    pub fn new(law: &JointLaw, unit: f64, offset: &Pose) -> Result<Self, ContactError> {
+        let rolling = match (law.kind, law.contact.as_deref()) {
+            (JointKind::Rolling(coordinate), Some(Contact::Rolling(contact))) => {
+                let (axis, x) = (law.axis, law.second_axis);
+                let (position, angle) = rolling::in_plane(offset, &axis, &x);
+                let law = Arc::new(RollingLaw::new(contact, coordinate, position, angle)?);
+                Some(rolling::Rolling { law, axis, x, unit })
+            }
+            _ => None,
+        };
+        Ok(Self { kind: law.kind, axis: law.axis, second_axis: law.second_axis, rolling })
+    }
+
+    /// Values of the coordinate between which a rolling joint is in contact; in the joint's units.
+    pub fn range(&self) -> Option<[f64; 2]> {
+        self.rolling.as_ref().map(rolling::Rolling::range)
+    }
+
+    /// Where and how a rolling joint touches; None of others, and beyond its range.
+    pub fn contact(&self, configuration: &Configuration) -> Option<ContactState> {
+        self.rolling.as_ref().and_then(|rolling| rolling.contact(configuration))
     }
 
     /// Number of coordinates.
@@ -99,7 +148,12 @@ impl Joint {
             JointKind::Universal => f(&universal::Universal { first: self.axis, second: self.second_axis }),
             JointKind::Spherical => f(&spherical::Spherical),
             JointKind::Planar => f(&planar::Planar { normal: self.axis, x: self.second_axis }),
-            JointKind::Free => f(&free::Free),
+            JointKind::Free | JointKind::Contact => f(&free::Free),
+            JointKind::Rolling(_) => match &self.rolling {
+                Some(rolling) => f(rolling),
+                // A model that is sound has a law here.
+                None => f(&weld::Weld),
+            },
         }
     }
 }

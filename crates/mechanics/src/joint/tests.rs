@@ -4,7 +4,9 @@ use super::*;
 use flexura_spatial::{Vector3, log};
 
 fn joint(kind: JointKind) -> Joint {
-    Joint { kind, axis: Vector3::new(2.0, -1.0, 2.0) / 3.0, second_axis: Vector3::new(2.0, 2.0, -1.0) / 3.0 }
+    let (axis, second_axis) = (Vector3::new(2.0, -1.0, 2.0) / 3.0, Vector3::new(2.0, 2.0, -1.0) / 3.0);
+    let law = JointLaw { second_axis, ..JointLaw::free(kind, axis) };
+    Joint::new(&law, 1.0, &Pose::identity()).unwrap()
 }
 
 fn coordinates(kind: JointKind) -> Vec<f64> {
