@@ -1,7 +1,7 @@
 //! The coordinates of a joint or hold as unknowns: free, driven, sprung, limited.
 
 use crate::scale::Scale;
-use flexura_mechanics::joint::{Configuration, Joint, Kinematics, MAX_FREEDOMS};
+use flexura_mechanics::joint::{Configuration, ContactError, Joint, Kinematics, MAX_FREEDOMS};
 use flexura_model::{CoordinateKind, CoordinateLaw, Drive, JointKind, JointLaw};
 use flexura_spatial::{Pose, Twist, Vector3};
 
@@ -22,8 +22,9 @@ pub(crate) struct Coordinates {
 }
 
 impl Coordinates {
-    pub fn new(law: &JointLaw, scale: &Scale, initial_pose: &Pose) -> Self {
-        let joint = Joint::new(law);
+    /// `initial_pose` is X_FM in the initial poses, nondimensional.
+    pub fn new(law: &JointLaw, scale: &Scale, initial_pose: &Pose) -> Result<Self, ContactError> {
+        let joint = Joint::new(law, scale.length, &scale.pose_out(initial_pose))?;
         let mut units = [1.0; MAX_FREEDOMS];
         for (unit, kind) in units.iter_mut().zip(law.kind.coordinate_kinds()) {
             *unit = if *kind == CoordinateKind::Length { scale.length } else { 1.0 };
@@ -36,7 +37,7 @@ impl Coordinates {
             .collect();
         let free =
             (0..laws.len()).filter(|&i| matches!(laws[i].drive, Drive::Free { .. })).collect::<Vec<_>>();
-        Self {
+        Ok(Self {
             kind: law.kind,
             initial: joint.nearest(initial_pose),
             joint,
@@ -44,7 +45,24 @@ impl Coordinates {
             free,
             spin_held: None,
             units,
+        })
+    }
+
+    /// The same of a law without a contact, as holds of beams have.
+    pub fn plain(law: &JointLaw, scale: &Scale, initial_pose: &Pose) -> Self {
+        match Self::new(law, scale, initial_pose) {
+            Ok(coordinates) => coordinates,
+            // Only contacts can make no sense.
+            Err(_) => Self::plain(&JointLaw::weld(), scale, initial_pose),
         }
+    }
+
+    /// A driven coordinate beyond where a rolling joint's boundaries end, with the range; SI.
+    pub fn driven_beyond(&self) -> Option<(f64, [f64; 2])> {
+        let range = self.joint.range()?;
+        let Drive::Driven { coordinate } = self.laws.first()?.drive else { return None };
+        let outside = !(coordinate >= range[0] && coordinate <= range[1]);
+        outside.then(|| (coordinate * self.units[0], range.map(|q| q * self.units[0])))
     }
 
     /// Changes what acts on a coordinate, which stays driven or free as it is; SI.

@@ -273,6 +273,7 @@ impl Equilibrium {
                 ));
             }
         }
+        self.contact_warnings(&mut warnings);
         warnings
     }
 }

@@ -1,13 +1,32 @@
 //! The solution in SI units; `samples` along the beams.
 
 use crate::system::Equilibrium;
-use flexura_mechanics::joint::Kinematics;
-use flexura_solution::{BeamSolution, JointSolution, Solution, SpringSolution, Status, Work};
-use flexura_spatial::Wrench;
+use flexura_mechanics::joint::{ContactState, Kinematics};
+use flexura_solution::{
+    BeamSolution, ContactSolution, JointSolution, Solution, SpringSolution, Status, Work,
+};
+use flexura_spatial::{Pose, Wrench};
 
 /// Nodes and weights of three-point Gauss quadrature on [0, 1].
 pub(crate) const GAUSS: [(f64, f64); 3] =
     [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+
+/// A contact seen globally; `fixed` is the pose of the parent's frame, `wrench` what the parent exerts on the child.
+fn touched(contact: &ContactState, fixed: &Pose, wrench: &Wrench) -> ContactSolution {
+    let normal = fixed.rotation * contact.normal;
+    let force = wrench.force.dot(&normal);
+    ContactSolution {
+        point: fixed.point(&contact.points[1]),
+        normal,
+        points: contact.points,
+        parameters: contact.parameters,
+        radii: contact.radii,
+        force,
+        friction: wrench.force - normal * force,
+        travel: contact.travel,
+        rates: contact.rates,
+    }
+}
 
 impl Equilibrium {
     /// Reads the present state off. `samples` places along each beam, ends included, besides those that
@@ -61,6 +80,11 @@ impl Equilibrium {
                 coordinates: joint.coordinates.values(&configuration, self.load),
                 efforts,
                 wrench,
+                contact: joint
+                    .coordinates
+                    .joint
+                    .contact(&configuration)
+                    .map(|contact| touched(&contact, &scale.pose_out(&base), &wrench)),
             });
         }
         let mut springs = Vec::new();

@@ -44,6 +44,7 @@ mod system;
 mod tangents;
 #[cfg(test)]
 mod tests;
+mod touch;
 mod tubes;
 
 pub use neighbour::Law;

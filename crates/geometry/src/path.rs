@@ -36,7 +36,12 @@ impl Path {
                 let (sin, cos) = t.sin_cos();
                 let [x, y] = [a * cos, b * sin];
                 let [u, v] = [-a * sin, b * cos];
-                [Vector3::new(x, y, 0.0), Vector3::new(u, v, 0.0), Vector3::new(-x, -y, 0.0), Vector3::new(-u, -v, 0.0)]
+                [
+                    Vector3::new(x, y, 0.0),
+                    Vector3::new(u, v, 0.0),
+                    Vector3::new(-x, -y, 0.0),
+                    Vector3::new(-u, -v, 0.0),
+                ]
             }
         }
     }

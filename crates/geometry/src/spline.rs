@@ -179,9 +179,8 @@ fn closed_slopes(knots: &[f64], points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let denominator = 1.0 + right[0][3] + ratio * right[n - 1][3];
     let mut slopes: Vec<Vector3<f64>> = (0..n)
         .map(|i| {
-            let part = |c: usize| {
-                right[i][c] - right[i][3] * (right[0][c] + ratio * right[n - 1][c]) / denominator
-            };
+            let part =
+                |c: usize| right[i][c] - right[i][3] * (right[0][c] + ratio * right[n - 1][c]) / denominator;
             Vector3::new(part(0), part(1), part(2))
         })
         .collect();

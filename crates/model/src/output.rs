@@ -72,6 +72,26 @@ pub enum Quantity {
     Coordinate,
     /// Effort on a joint coordinate; component is its number.
     Effort,
+    /// The contact, global (joint), m.
+    ContactPoint,
+    /// Unit normal from the parent to the child, global (joint).
+    ContactNormal,
+    /// Normal force in the contact, positive where the two press on each other (joint).
+    ContactForce,
+    /// What the parent exerts on the child across the normal, global (joint).
+    ContactFriction,
+    /// The contact in the axes of the joint's frame on the child (joint), m.
+    ContactOnChild,
+    /// The contact in the axes of the joint's frame on the parent (joint), m.
+    ContactOnParent,
+    /// Parameters of the boundaries where they touch (joint): child's first and second, parent's first and second.
+    ContactParameter,
+    /// Radius of curvature in the direction of travel (joint), m: the child's, the parent's.
+    ContactRadius,
+    /// How far the contact has rolled on the parent, how far the child has slid (joint), m.
+    ContactTravel,
+    /// Their derivatives by the joint's coordinate.
+    ContactRate,
     /// Length of a spring or cable.
     Length,
     /// Tension of a spring or cable.

@@ -145,7 +145,7 @@ fn value(shape: &Shape) -> String {
         Shape::Notched(_) => any_of(std::iter::once(refer("number")).chain(shape.table().map(table))),
         Shape::Stiffness(_) => refer("extended"),
         Shape::Vector(_) | Shape::Profiles(_) => refer("vector"),
-        Shape::Range(_) | Shape::AnyRange => list_of("number", 2),
+        Shape::Range(_) | Shape::AnyRange | Shape::AnyPair => list_of("number", 2),
         Shape::Quaternion => list_of("number", 4),
         Shape::Matrix6 => list(list_of("number", 6), Some(6), 6),
         Shape::Inertia => any_of([refer("vector"), list(refer("vector"), Some(3), 3)]),
@@ -163,6 +163,7 @@ fn value(shape: &Shape) -> String {
         Shape::NamedNumbers | Shape::NamedTargets => named(refer("number")),
         Shape::NamedOutputs => named(type_of("string")),
         Shape::Points => list(refer("vector"), None, 2),
+        Shape::PlanePoints | Shape::Pairs => list(list_of("number", 2), None, 2),
         Shape::Along => list(
             object(&[
                 ("type", text("object")),

@@ -1,5 +1,6 @@
 //! From a solution to the result document.
 
+use crate::contact::ContactDocument;
 use crate::derivatives::{compliances, elasticities, motions, sensitivities};
 use crate::wire::{
     BeamDocument, BodyDocument, CableDocument, CouplingDocument, Document, EquilibriumDocument,
@@ -179,6 +180,10 @@ fn joints(model: &Model, solution: &Solution) -> Result<Named<JointDocument>, Ou
             efforts: finite_list(&path("efforts"), result.efforts.iter().copied())?,
             force: all_finite(result.wrench.force.into(), || path("force"))?,
             moment: all_finite(result.wrench.moment.into(), || path("moment"))?,
+            contact: match &result.contact {
+                Some(contact) => Some(ContactDocument::new(&path("contact"), contact)?),
+                None => None,
+            },
         };
         Ok((joint.name.clone(), document))
     })

@@ -6,6 +6,7 @@
 //! JSON knows no NaN and no infinity, and `null` in their place would be a lie: a document that would need
 //! one is refused with [`OutputError`], which names the field.
 
+mod contact;
 mod csv;
 mod derivatives;
 mod document;
@@ -16,6 +17,7 @@ mod trace;
 mod vtk;
 mod wire;
 
+pub use contact::{ContactDocument, SideDocument};
 pub use csv::beams_csv;
 pub use document::{document, equilibrium_document};
 pub use json::{Named, to_json};

@@ -252,6 +252,7 @@ fn joint_solution(name: &str, joint: &JointDocument, kind: JointKind) -> Result<
         coordinates: joint.coordinates.clone(),
         efforts: joint.efforts.clone(),
         wrench: Wrench::new(joint.force.into(), joint.moment.into()),
+        contact: joint.contact.map(|contact| contact.solution()),
     })
 }
 

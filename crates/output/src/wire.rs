@@ -1,6 +1,6 @@
 //! The result document's shape, field for field. SI units, quaternions as (w, x, y, z).
 
-use crate::Named;
+use crate::{ContactDocument, Named};
 use serde::{Deserialize, Serialize};
 
 /// The result document of a solve.
@@ -198,6 +198,9 @@ pub struct JointDocument {
     pub force: [f64; 3],
     /// Moment of the parent on the child about M's origin, global, N·m.
     pub moment: [f64; 3],
+    /// Of a rolling or contact joint.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactDocument>,
 }
 
 /// A spring's state.

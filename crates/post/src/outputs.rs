@@ -3,7 +3,7 @@
 use crate::screw::{center_of_compliance, finite_screw, instantaneous_screw};
 use crate::{BeamStress, PostError};
 use flexura_model::{At, BeamId, BodyId, Model, Output, Probe, ProbeTarget, Quantity};
-use flexura_solution::{Solution, TangentSolution};
+use flexura_solution::{ContactSolution, Solution, TangentSolution};
 use flexura_spatial::{Matrix6, Pose, Vector3, log};
 
 /// The value of an output, in SI units.
@@ -67,6 +67,23 @@ pub(crate) fn evaluate(
     Ok(OutputResult { name: output.name.clone(), unit: output.unit.clone(), value, is_strain })
 }
 
+fn of_contact(contact: &ContactSolution, quantity: Quantity, component: usize) -> Option<f64> {
+    match quantity {
+        Quantity::ContactPoint => contact.point.get(component).copied(),
+        Quantity::ContactNormal => contact.normal.get(component).copied(),
+        Quantity::ContactForce => Some(contact.force),
+        Quantity::ContactFriction => contact.friction.get(component).copied(),
+        Quantity::ContactOnChild => contact.points[0].get(component).copied(),
+        Quantity::ContactOnParent => contact.points[1].get(component).copied(),
+        Quantity::ContactParameter => contact.parameters.as_flattened().get(component).copied(),
+        // A straight boundary has no radius that could be written down.
+        Quantity::ContactRadius => contact.radii.get(component).map(|radius| radius.unwrap_or(f64::INFINITY)),
+        Quantity::ContactTravel => contact.travel.get(component).copied(),
+        Quantity::ContactRate => contact.rates.get(component).copied(),
+        _ => None,
+    }
+}
+
 /// Reads probes on behalf of one output, which the messages name.
 struct Reader<'a> {
     output: &'a str,
@@ -88,7 +105,7 @@ impl Reader<'_> {
                     Quantity::Effort => joint.efforts.get(component).copied(),
                     Quantity::Force => joint.wrench.force.get(component).copied(),
                     Quantity::Moment => joint.wrench.moment.get(component).copied(),
-                    _ => None,
+                    quantity => joint.contact.and_then(|contact| of_contact(&contact, quantity, component)),
                 });
                 value.ok_or_else(|| self.no_such_quantity("a joint"))
             }

@@ -3,9 +3,11 @@
 //! Lists run parallel to the model's lists: `beams[i]` belongs to `model.beams[i]`. SI units, global axes
 //! unless said otherwise. `F` and `M` act, by the part beyond s, on the part before s.
 
+mod contact;
 mod trace;
 mod words;
 
+pub use contact::ContactSolution;
 pub use trace::{
     Branch, BranchEnd, BranchOrigin, Buckling, BucklingMode, CriticalCurve, Crossing, Direction, PointKind,
     Trace, TracePoint, TraceWork,
@@ -149,6 +151,8 @@ pub struct JointSolution {
     pub efforts: Vec<f64>,
     /// What the parent exerts on the child, at M's origin, in global axes.
     pub wrench: Wrench,
+    /// Of a rolling or contact joint.
+    pub contact: Option<ContactSolution>,
 }
 
 /// A spring's state.

@@ -225,11 +225,7 @@ impl Prepared {
             PathEnd::Complete => self.finish(tolerance, path, f64::INFINITY),
             PathEnd::Stalled { load } => Outcome {
                 status: Status::Stalled,
-                reason: Some(format!(
-                    "the path from rest ends at {:.4} % of the load, most likely at a fold (limit point) where the \
-                     mechanism snaps; reduce the load, or drive the motion by a joint coordinate instead of a force",
-                    100.0 * load
-                )),
+                reason: Some(self.why_stalled(load)),
                 error_estimate: f64::NAN,
                 path,
             },
@@ -250,6 +246,22 @@ impl Prepared {
                 error_estimate: f64::NAN,
                 path,
             },
+        }
+    }
+
+    fn why_stalled(&self, load: f64) -> String {
+        let part = 100.0 * load;
+        let ends = self.problem.contact_ends();
+        if ends.is_empty() {
+            format!(
+                "the path from rest ends at {part:.4} % of the load, most likely at a fold (limit point) where the \
+                 mechanism snaps; reduce the load, or drive the motion by a joint coordinate instead of a force"
+            )
+        } else {
+            let ends = ends.join(", and ");
+            format!(
+                "the path from rest ends at {part:.4} % of the load: {ends}; reduce the load, or give longer boundaries"
+            )
         }
     }
 

@@ -1,6 +1,6 @@
 //! Joints, couplings and springs between nodes.
 
-use super::{Carrier, Gear, JointOrigin, Link, Lowered, NodeJoint, SNUG, length_text};
+use super::{Carrier, Gear, JointOrigin, Link, Lowered, NodeJoint, SNUG, contact, length_text};
 use crate::coordinates::Coordinates;
 use crate::error::ProblemError;
 use flexura_mechanics::joint::Kinematics;
@@ -8,7 +8,7 @@ use flexura_mechanics::spring::LinearSpring;
 use flexura_model::{Attachment, Coupling, Model, Spring, SpringLaw};
 use flexura_spatial::Vector3;
 
-pub(super) fn lower_joint(model: &Model, lowered: &mut Lowered, index: usize) {
+pub(super) fn lower_joint(model: &Model, lowered: &mut Lowered, index: usize) -> Result<(), ProblemError> {
     let joint = &model.joints[index];
     let parent = Carrier {
         node: lowered.node_of(joint.parent.mount),
@@ -22,15 +22,21 @@ pub(super) fn lower_joint(model: &Model, lowered: &mut Lowered, index: usize) {
     };
     let child = Carrier { node: child_node, frame };
     let offset = fixed.inverse() * lowered.carrier_pose(&child);
-    let coordinates = Coordinates::new(&joint.law, &lowered.scale, &offset);
+    let coordinates = Coordinates::new(&joint.law, &lowered.scale, &offset)
+        .map_err(|error| contact::problem(joint, &error))?;
     let mismatch = (coordinates.joint.pose(&coordinates.initial).inverse() * offset).log();
-    if mismatch.linear.norm() > SNUG || mismatch.angular.norm() > SNUG {
-        lowered.warnings.push(format!(
-            "joint.{}: its two frames are {} and {:.4} deg apart in the initial poses; they are brought together",
-            joint.name,
-            length_text(mismatch.linear.norm() * lowered.scale.length),
-            mismatch.angular.norm().to_degrees(),
-        ));
+    let apart = mismatch.linear.norm() * lowered.scale.length;
+    match &joint.law.contact {
+        Some(law) => contact::check(joint, law, &coordinates, &mismatch, apart)?,
+        None if mismatch.linear.norm() > SNUG || mismatch.angular.norm() > SNUG => {
+            lowered.warnings.push(format!(
+                "joint.{}: its two frames are {} and {:.4} deg apart in the initial poses; they are brought together",
+                joint.name,
+                length_text(apart),
+                mismatch.angular.norm().to_degrees(),
+            ));
+        }
+        None => {}
     }
     lowered.joints.push(NodeJoint {
         origin: JointOrigin::Joint(index),
@@ -39,6 +45,7 @@ pub(super) fn lower_joint(model: &Model, lowered: &mut Lowered, index: usize) {
         coordinates,
         mismatch,
     });
+    Ok(())
 }
 
 pub(super) fn lower_coupling(

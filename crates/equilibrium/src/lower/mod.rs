@@ -7,6 +7,7 @@
 
 mod attachments;
 mod cables;
+mod contact;
 mod spans;
 
 use crate::beam::BeamLaw;
@@ -217,7 +218,7 @@ pub(crate) fn lower(
     spans::lay_out(model, &mut lowered)?;
     spans::place_hubs(model, &mut lowered, probes);
     for i in 0..model.joints.len() {
-        attachments::lower_joint(model, &mut lowered, i);
+        attachments::lower_joint(model, &mut lowered, i)?;
     }
     for i in 0..model.beams.len() {
         spans::lower_beam(model, &mut lowered, i)?;

@@ -206,7 +206,7 @@ pub(super) fn lower_beam(model: &Model, lowered: &mut Lowered, beam: usize) -> R
 fn weld(scale: &Scale, node: usize) -> Hold {
     Hold {
         carrier: Carrier { node: Some(node), frame: Pose::identity() },
-        coordinates: Coordinates::new(&JointLaw::weld(), scale, &Pose::identity()),
+        coordinates: Coordinates::plain(&JointLaw::weld(), scale, &Pose::identity()),
         mismatch: Twist { angular: Vector3::zeros(), linear: Vector3::zeros() },
     }
 }
@@ -245,7 +245,7 @@ fn held(lowered: &mut Lowered, end: &End, beam: usize, s: f64, path: &str) -> Ho
     };
     let carrier = Carrier { node, frame };
     let offset = lowered.carrier_pose(&carrier).inverse() * rest;
-    let coordinates = Coordinates::new(&end.hold, &lowered.scale, &offset);
+    let coordinates = Coordinates::plain(&end.hold, &lowered.scale, &offset);
     let left = coordinates.joint.pose(&coordinates.initial).inverse() * offset;
     let mismatch = left.log();
     if mismatch.linear.norm() > SNUG || mismatch.angular.norm() > SNUG {

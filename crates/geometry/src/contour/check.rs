@@ -1,7 +1,7 @@
 //! Is a curve the boundary of anything? It must not cross itself, and be closed if it says so.
 
-use super::error::BoundaryError;
 use super::curvature;
+use super::error::BoundaryError;
 use crate::path::Path;
 use crate::smooth::Sample;
 

@@ -53,7 +53,10 @@ pub struct Contour {
 #[derive(Clone, Debug)]
 enum Kind {
     /// Point at s = 0 and angle of the tangent; s is minus the parameter where `reversed`.
-    Line { point: [f64; 2], angle: f64 },
+    Line {
+        point: [f64; 2],
+        angle: f64,
+    },
     Curve(Curve),
 }
 
@@ -211,11 +214,12 @@ impl Contour {
         }
     }
 
-    /// Points along it, for looking at: of one turn, of the whole, or of `reach` to both sides of a line without end.
-    pub fn polyline(&self, count: usize, reach: f64) -> Vec<[f64; 2]> {
+    /// Points along it, for looking at: of one turn, of the whole, or of `reach` to both sides of the place `middle` on a line
+    /// without end.
+    pub fn polyline(&self, count: usize, middle: f64, reach: f64) -> Vec<[f64; 2]> {
         let [from, to] = self.range.unwrap_or(match self.length() {
             Some(length) => [0.0, length],
-            None => [-reach, reach],
+            None => [middle - reach, middle + reach],
         });
         let place = |i: usize| from + (to - from) * i as f64 / count as f64;
         (0..=count).filter_map(|i| self.at(place(i))).map(|place| place.point).collect()

@@ -69,7 +69,8 @@ fn closed_boundaries_run_counter_clockwise() {
     for contour in [&forth, &back, &ellipse(2.0, 1.0)] {
         assert!(contour.is_convex());
         let length = contour.length().expect("closed");
-        let turn = contour.at(length * 1.25).expect("closed").angle - contour.at(length * 0.25).expect("closed").angle;
+        let turn = contour.at(length * 1.25).expect("closed").angle
+            - contour.at(length * 0.25).expect("closed").angle;
         assert!((turn - TAU).abs() < 1e-12);
     }
     let inside = Boundary { outside: Some(Side::Left), ..expression("2*cos(t)", "sin(t)", [0.0, TAU], true) };

@@ -43,7 +43,7 @@ pub(super) fn curve(reader: &Reader<'_, '_>) -> Read<Curve> {
     }
 }
 
-fn parametric(reader: &Reader<'_, '_>) -> Read<Curve> {
+pub(super) fn parametric(reader: &Reader<'_, '_>) -> Read<Curve> {
     let variable = reader.text("parameter")?.unwrap_or("t");
     if reader.context.parameters.contains_key(variable) {
         let message = format!("`{variable}` is the curve's parameter and a parameter of the model");
@@ -142,7 +142,7 @@ fn points(reader: &Reader<'_, '_>) -> Read<Curve> {
             }
             Ok(Curve::Points { points: inline(reader, &entry.node, key)? })
         }
-        (None, Some(file)) => Ok(Curve::Points { points: from_file(reader, file)? }),
+        (None, Some(file)) => Ok(Curve::Points { points: from_file(reader, file, ["x", "y", "z"])? }),
         (None, None) => Err(reader.wrong_with_hint(
             "the key `points` (or `file`) is missing",
             "for example `file = \"points.csv\"`",
@@ -182,7 +182,12 @@ fn inline(reader: &Reader<'_, '_>, node: &Node, key: &Key) -> Read<Vec<Vector3<f
     result.map(|()| points)
 }
 
-fn from_file(reader: &Reader<'_, '_>, file: &str) -> Read<Vec<Vector3<f64>>> {
+/// Points from the columns of a file; what has no column is zero.
+pub(super) fn from_file<const N: usize>(
+    reader: &Reader<'_, '_>,
+    file: &str,
+    names: [&str; N],
+) -> Read<Vec<Vector3<f64>>> {
     let scale = match reader.text("unit")? {
         None => 1.0,
         Some(text) => match flexura_expression::unit(text) {
@@ -205,11 +210,14 @@ fn from_file(reader: &Reader<'_, '_>, file: &str) -> Read<Vec<Vector3<f64>>> {
     };
     let text = read(reader, file)?;
     let wrong = |line: usize, message: String| {
-        let hint = "each line holds three numbers x, y, z, divided by commas; the first may name the columns";
+        let hint = format!(
+            "each line holds {N} numbers {}, divided by commas; the first may name the columns",
+            names.join(", ")
+        );
         reader.wrong_at("file", format!("{file}, line {line}: {message}"), hint)
     };
     let mut points = Vec::new();
-    let mut columns = [0, 1, 2];
+    let mut columns: [usize; N] = std::array::from_fn(|i| i);
     let mut first = true;
     for (i, line) in text.lines().enumerate() {
         let line_number = i + 1;
@@ -220,7 +228,7 @@ fn from_file(reader: &Reader<'_, '_>, file: &str) -> Read<Vec<Vector3<f64>>> {
         let cells: Vec<&str> =
             line.split([',', ';', '\t']).map(|cell| cell.trim().trim_matches('"')).collect();
         if std::mem::take(&mut first) && cells.iter().all(|cell| cell.parse::<f64>().is_err()) {
-            for (column, name) in columns.iter_mut().zip(["x", "y", "z"]) {
+            for (column, name) in columns.iter_mut().zip(names) {
                 let Some(position) = cells.iter().position(|cell| cell.eq_ignore_ascii_case(name)) else {
                     let near = nearest(name, cells.iter().copied())
                         .map_or(String::new(), |near| format!(" (is it `{near}`?)"));
@@ -233,7 +241,7 @@ fn from_file(reader: &Reader<'_, '_>, file: &str) -> Read<Vec<Vector3<f64>>> {
         let mut point = [0.0; 3];
         for (coordinate, column) in point.iter_mut().zip(columns) {
             let Some(cell) = cells.get(column) else {
-                return Err(wrong(line_number, format!("expected 3 numbers, found {}", cells.len())));
+                return Err(wrong(line_number, format!("expected {N} numbers, found {}", cells.len())));
             };
             match cell.parse::<f64>() {
                 Ok(value) if value.is_finite() => *coordinate = value * scale,

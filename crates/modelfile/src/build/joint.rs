@@ -1,5 +1,6 @@
 //! Joints, and their laws, which the holds of beam ends have too.
 
+use super::contact;
 use super::place::frame;
 use crate::context::{Needed, Read, Reported};
 use crate::format::Shape;
@@ -27,7 +28,10 @@ pub(super) fn joint(reader: &Reader<'_, '_>, name: String) -> Read<Joint> {
         return Err(reader.wrong_at("child", message, hint));
     }
     let parent = Frame { mount: parent, pose: parent_pose.unwrap_or_else(Pose::identity) };
-    Ok(Joint { name, parent, child, child_pose, law: law? })
+    let law = law?;
+    // What touches is given in the child's own axes.
+    let child_pose = child_pose.or_else(|| law.contact.as_ref().map(|_| Pose::identity()));
+    Ok(Joint { name, parent, child, child_pose, law })
 }
 
 /// The name of a body, or a table that also says where on it, or on which beam.
@@ -68,6 +72,7 @@ pub(super) fn law(reader: &Reader<'_, '_>) -> Read<JointLaw> {
         "universal" => two_axes(reader, JointKind::Universal, "second_axis"),
         "planar" => two_axes(reader, JointKind::Planar, "x_axis"),
         "free" => free(reader),
+        "rolling" => contact::rolling(reader),
         _ => Err(Reported),
     }
 }
@@ -81,9 +86,19 @@ fn one_coordinate(reader: &Reader<'_, '_>, kind: JointKind) -> Read<JointLaw> {
 /// A joint with a second axis across the first; where it is not given, the model chooses one.
 fn two_axes(reader: &Reader<'_, '_>, kind: JointKind, second: &str) -> Read<JointLaw> {
     let axis = reader.direction("axis").needed();
-    let across = reader.direction(second);
     let coordinates = coordinates(reader, kind);
-    let (axis, across) = (axis?, across?);
+    across_axis(reader, kind, axis?, second, coordinates)
+}
+
+/// The law of a kind whose second axis is at right angles to the first.
+pub(super) fn across_axis(
+    reader: &Reader<'_, '_>,
+    kind: JointKind,
+    axis: Vector3<f64>,
+    second: &str,
+    coordinates: Read<Vec<CoordinateLaw>>,
+) -> Read<JointLaw> {
+    let across = reader.direction(second)?;
     let mut law = JointLaw { coordinates: coordinates?, ..JointLaw::free(kind, axis) };
     if let Some(across) = across {
         let cosine = axis.dot(&across);
@@ -150,7 +165,7 @@ fn sub_coordinate(reader: &Reader<'_, '_>, name: &str) -> Read<CoordinateLaw> {
 const BOTH: &str = "a driven coordinate finds its own effort";
 
 /// What acts on one coordinate.
-fn coordinate(reader: &Reader<'_, '_>) -> Read<CoordinateLaw> {
+pub(super) fn coordinate(reader: &Reader<'_, '_>) -> Read<CoordinateLaw> {
     let coordinate = reader.number("coordinate");
     let effort = reader.number("effort");
     let stiffness = reader.number("stiffness");

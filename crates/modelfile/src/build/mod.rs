@@ -3,6 +3,7 @@
 mod beam;
 mod body;
 mod cable;
+mod contact;
 mod coupling;
 mod curve;
 mod joint;

@@ -1,5 +1,6 @@
 //! Tables of joints and of the holds of beam ends: kinds, coordinates, and the places that they connect.
 
+use super::contacts::{BOUNDARY, SLIDE};
 use super::tables::{key, table, variant};
 use super::{Key, Named, Need, Shape, Table, Variants};
 use Need::{Default, Optional, Required};
@@ -39,9 +40,9 @@ const AXIS: Key = key(
 );
 
 macro_rules! angle_keys {
-    ($($first:expr)?) => {
+    ($($first:expr),*) => {
         &[
-            $($first,)?
+            $($first,)*
             key("coordinate", Shape::Number(D::ANGLE), Optional, "\"30 deg\"", "Drives it to this angle."),
             key(
                 "effort",
@@ -191,6 +192,79 @@ const PLANAR: &[Key] = &[
     length("y", "Sliding along y, which is the normal times x."),
     angle("angle", "Turning about the normal."),
 ];
+const ROLLING: &[Key] = angle_keys!(
+    key(
+        "axis",
+        Shape::Vector(D::NUMBER),
+        Default("[0, 0, 1]"),
+        "[0, 0, 1]",
+        "The normal of the plane in which the boundaries lie, in the fixed frame; need not be of unit length.",
+    ),
+    key(
+        "x_axis",
+        Shape::Vector(D::NUMBER),
+        Default("the fixed frame's x axis (its y axis where the normal is x), turned into the plane"),
+        "[1, 0, 0]",
+        "The direction of x, at right angles to the normal.",
+    ),
+    key(
+        "child_curve",
+        Shape::Table(&BOUNDARY),
+        Required,
+        "{ kind = \"ellipse\", semi_axes = [\"2 cm\", \"1 cm\"] }",
+        "The moving boundary, in the child's frame.",
+    ),
+    key(
+        "parent_curve",
+        Shape::Table(&BOUNDARY),
+        Required,
+        "{ kind = \"line\", normal = [0, 1] }",
+        "The fixed boundary, in the parent's frame.",
+    ),
+    key(
+        "concave",
+        Shape::Flag,
+        Default("false"),
+        "true",
+        "The child lies within the parent's curve and touches it from there.",
+    ),
+    key(
+        "start",
+        Shape::AnyPair,
+        Default("where the initial poses bring the two closest"),
+        "[\"-90 deg\", \"90 deg\"]",
+        "Where they touch at coordinate zero: the parameter of the child's curve, then that of the parent's.",
+    ),
+    key(
+        "by",
+        Shape::Choice(&[
+            ("angle", "By how much the child has turned."),
+            (
+                "turning",
+                "By how much the child has turned against the contact's normal; its boundary must be convex."
+            ),
+            ("arc", "How far the contact has travelled on the child."),
+        ]),
+        Default("\"angle\""),
+        "\"turning\"",
+        "What the coordinate is. One that is an arc is driven or loaded in the table `arc`.",
+    ),
+    length("arc", "With `by = \"arc\"`: what drives, loads or springs the arc."),
+    key(
+        "slide",
+        Shape::Table(&SLIDE),
+        Default("{ kind = \"none\" }"),
+        "{ kind = \"ratio\", ratio = 1.7 }",
+        "How the child slides as it rolls.",
+    ),
+    key(
+        "close",
+        Shape::Flag,
+        Default("false"),
+        "true",
+        "Bodies that do not touch in the initial poses are brought together.",
+    )
+);
 const FREE: &[Key] = &[
     length("x", "Along the fixed frame's x."),
     length("y", "Along the fixed frame's y."),
@@ -314,6 +388,11 @@ pub(crate) static JOINT: Table = Table {
             variant("spherical", "Turning about a point.", BALL_KEYS),
             variant("planar", "Sliding in a plane and turning about its normal.", PLANAR),
             variant("free", "Everything; for springs on the coordinates, or to drive a body.", FREE),
+            variant(
+                "rolling",
+                "A boundary of the child rolls and slides on one of the parent, in a plane; a child without a place has its boundary about its origin.",
+                ROLLING,
+            ),
         ],
     }),
 };

@@ -4,6 +4,7 @@
 //! is needed, and give an example. What a builder does with the values is not said here.
 
 mod attachments;
+mod contacts;
 mod joints;
 mod relations;
 mod sections;
@@ -165,12 +166,18 @@ pub(crate) enum Shape {
     AnyNumber,
     /// Two such numbers.
     AnyRange,
+    /// Two numbers, each of the dimension of something else.
+    AnyPair,
     /// Two expressions of joint coordinates with an equals sign between them.
     Equation,
     /// Three lengths, or two lengths or expressions of s.
     Offset,
     /// A list of points.
     Points,
+    /// A list of points in a plane.
+    PlanePoints,
+    /// Rows of two numbers whose dimensions depend on something else.
+    Pairs,
     /// Rows of dimensions along the beam, keys as in the same table.
     Along,
     /// The number 1.
@@ -248,9 +255,12 @@ impl Shape {
             Shape::Texts => "a text, or a list of texts".into(),
             Shape::AnyNumber => "a number of the parameter's dimension".into(),
             Shape::AnyRange => "two numbers of the parameter's dimension".into(),
+            Shape::AnyPair => "two numbers, each of its curve's dimension".into(),
             Shape::Equation => "an equation between joint coordinates".into(),
             Shape::Offset => "three lengths, or two lengths or expressions of s".into(),
             Shape::Points => "a list of points, each three numbers (m)".into(),
+            Shape::PlanePoints => "a list of points, each two numbers (m)".into(),
+            Shape::Pairs => "a list of rows, each two numbers".into(),
             Shape::Along => "a list of rows, each `at` and the dimensions there".into(),
             Shape::Version => "the number 1".into(),
         }
@@ -261,7 +271,7 @@ impl Shape {
         match self {
             Shape::Name(_) | Shape::Choice(_) | Shape::Parameter => "a text".into(),
             Shape::Vector(_) | Shape::Profiles(_) => "a list of 3 numbers".into(),
-            Shape::Range(_) | Shape::AnyRange => "a list of 2 numbers".into(),
+            Shape::Range(_) | Shape::AnyRange | Shape::AnyPair => "a list of 2 numbers".into(),
             Shape::Quaternion => "a list of 4 numbers".into(),
             other => other.describe(),
         }

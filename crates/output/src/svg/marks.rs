@@ -77,6 +77,8 @@ pub fn joint(canvas: &mut Canvas, panel: &Panel, joint: &JointMark) {
     }
     match (joint.kind, along) {
         (JointKind::Weld, _) => {}
+        // The boundaries themselves are drawn.
+        (JointKind::Rolling(_) | JointKind::Contact, _) => {}
         // It holds nothing, but what it measures and what springs it may carry is measured from here.
         (JointKind::Free, _) => canvas.circle(at, 9.0, "none", &Style::line(FAINT, 1.1).dashed("2 3")),
         (JointKind::Prismatic, Some(u)) => rails(canvas, at, u, 6.0, joint.is_grounded),

@@ -15,6 +15,7 @@ mod curve;
 mod diagram;
 mod layout;
 mod marks;
+mod outlines;
 mod scene;
 mod series;
 mod shapes;
@@ -97,6 +98,13 @@ fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
     }
     for beam in &scene.beams {
         canvas.curve(&pieces(panel, &beam.initial), &initial);
+    }
+    for outline in scene.outlines.iter().filter(|outline| !outline.is_grounded) {
+        canvas.polyline(outline.initial.iter().map(|point| panel.point(point)), &initial);
+    }
+    for outline in &scene.outlines {
+        let style = if outline.is_grounded { Style::line(INK, 1.6) } else { Style::line("#555555", 1.6) };
+        canvas.polyline(outline.deformed.iter().map(|point| panel.point(point)), &style);
     }
     for spring in &scene.springs {
         marks::spring(canvas, panel.point(&spring[0]), panel.point(&spring[1]));

@@ -1,5 +1,6 @@
 //! What there is to draw, in space.
 
+use super::outlines::{Outline, outlines};
 use flexura_model::{
     BeamPoint, Body, Frame, Guide, JointKind, LoadFrame, LoadTarget, Model, Mount, Tube, Tubes,
 };
@@ -88,6 +89,7 @@ pub struct Scene {
     pub bodies: Vec<BodyMark>,
     pub supports: Vec<Support>,
     pub joints: Vec<JointMark>,
+    pub outlines: Vec<Outline>,
     pub springs: Vec<[Vector3<f64>; 2]>,
     pub cables: Vec<CableMark>,
     pub loads: Vec<LoadMark>,
@@ -134,6 +136,7 @@ impl Scene {
             bodies,
             supports,
             joints,
+            outlines: outlines(model, solution),
             springs: solution.springs.iter().map(|spring| spring.ends).collect(),
             cables: cables(model, solution),
             loads: loads(model, solution),
@@ -153,7 +156,13 @@ impl Scene {
         });
         let marks = self.springs.iter().flatten().copied().chain(self.joints.iter().map(|joint| joint.point));
         let marks = marks.chain(self.cables.iter().flat_map(|cable| &cable.course).copied());
-        let mut points = beams.chain(bodies).chain(marks).filter(|point| point.iter().all(|c| c.is_finite()));
+        let outlines =
+            self.outlines.iter().flat_map(|outline| outline.initial.iter().chain(&outline.deformed));
+        let mut points = beams
+            .chain(bodies)
+            .chain(marks)
+            .chain(outlines.copied())
+            .filter(|point| point.iter().all(|c| c.is_finite()));
         let first = points.next().unwrap_or_else(Vector3::zeros);
         points.fold([first; 2], |[low, high], point| [low.inf(&point), high.sup(&point)])
     }
@@ -254,7 +263,7 @@ fn guide_support(tubes: &Tubes) -> Option<Support> {
     })
 }
 
-fn initial_pose(model: &Model, solution: &Solution, mount: Mount) -> Pose {
+pub fn initial_pose(model: &Model, solution: &Solution, mount: Mount) -> Pose {
     match mount {
         Mount::Ground => Pose::identity(),
         Mount::Beam(place) => sample_at(solution, place).map_or_else(Pose::identity, |s| s.rest_pose),
@@ -262,7 +271,7 @@ fn initial_pose(model: &Model, solution: &Solution, mount: Mount) -> Pose {
     }
 }
 
-fn final_pose(solution: &Solution, mount: Mount) -> Pose {
+pub fn final_pose(solution: &Solution, mount: Mount) -> Pose {
     match mount {
         Mount::Ground => Pose::identity(),
         Mount::Beam(place) => sample_at(solution, place).map_or_else(Pose::identity, |s| s.pose),

@@ -240,6 +240,9 @@ fn draw_state(
     for beam in &scene.beams {
         canvas.curve(&pieces(panel, &thinned(&beam.deformed)), &style(width));
     }
+    for outline in scene.outlines.iter().filter(|outline| !outline.is_grounded) {
+        canvas.polyline(outline.deformed.iter().map(|point| panel.point(point)), &style(0.5 * width));
+    }
 }
 
 /// As many knots as a curve needs that turns by little between two of them: there are many shapes in one picture.
@@ -259,6 +262,9 @@ fn thinned(knots: &[Knot]) -> Vec<Knot> {
 
 /// What holds the mechanism to the ground.
 fn draw_ground(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
+    for outline in scene.outlines.iter().filter(|outline| outline.is_grounded) {
+        canvas.polyline(outline.deformed.iter().map(|point| panel.point(point)), &Style::line(INK, 1.4));
+    }
     for support in &scene.supports {
         marks::support(canvas, panel, support);
     }

@@ -161,7 +161,12 @@ pub fn solution() -> Solution {
             BeamSolution { samples: wire.collect(), length: 0.1 },
         ],
         bodies: vec![tip, lever],
-        joints: vec![JointSolution { coordinates: vec![-0.8], efforts: vec![0.0], wrench: Wrench::zero() }],
+        joints: vec![JointSolution {
+            coordinates: vec![-0.8],
+            efforts: vec![0.0],
+            wrench: Wrench::zero(),
+            contact: None,
+        }],
         couplings: Vec::new(),
         cables: Vec::new(),
         tubes: Vec::new(),
@@ -249,6 +254,7 @@ pub fn rich() -> (Model, Solution) {
             coordinates: vec![0.0; kind.freedoms()],
             efforts: vec![0.5; kind.freedoms()],
             wrench: Wrench::zero(),
+            contact: None,
         });
     }
     let term = |coordinate, factor| CouplingTerm { joint: JointId(1), coordinate, factor };

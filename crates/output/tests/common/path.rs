@@ -126,6 +126,7 @@ pub fn state(w: f64) -> Solution {
             coordinates: vec![end.position.x - LENGTH],
             efforts: vec![0.0],
             wrench: Wrench::zero(),
+            contact: None,
         }],
         springs: Vec::new(),
         couplings: Vec::new(),

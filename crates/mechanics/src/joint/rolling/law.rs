@@ -265,8 +265,7 @@ impl RollingLaw {
         let total = ka + kb * share;
         let da = (1.0 + kb * s[1]) / total;
         let db = share * da - s[1];
-        let dda =
-            (child.curvature_rate * da * da + kb * s[2] - parent.curvature_rate * db * db) / total;
+        let dda = (child.curvature_rate * da * da + kb * s[2] - parent.curvature_rate * db * db) / total;
         Some([a, da, dda])
     }
 

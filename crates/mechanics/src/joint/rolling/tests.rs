@@ -103,7 +103,9 @@ fn a_bowl_turns_the_other_way_and_ends() {
     for (q, fits) in [(FRAC_PI_2, true), (range[1] * (1.0 - 1e-12), false)] {
         let (contact, ..) = at(&inside, q);
         assert_eq!(contact.fits, fits);
-        assert!(fits || contact.parameters[1][0].abs() < 1e-9 || (contact.parameters[1][0] + PI).abs() < 1e-9);
+        assert!(
+            fits || contact.parameters[1][0].abs() < 1e-9 || (contact.parameters[1][0] + PI).abs() < 1e-9
+        );
     }
     assert!(inside.pose(&inside.configuration(&[range[1] + 1e-6])).position.x.is_nan());
 }
@@ -178,7 +180,11 @@ fn examples() -> Vec<(Description, RollingCoordinate, f64)> {
         (on(Slide::Function(function("0.2*q+0.1*q^3"))), RollingCoordinate::Angle, 0.8),
         (on(Slide::Function(function("0.2*sin(q)"))), RollingCoordinate::Arc, 1.1),
         (on(Slide::Table(table)), RollingCoordinate::Turning, 0.3),
-        (on(Slide::Measured { roll: function("q-q^2"), slide: function("q^2") }), RollingCoordinate::Angle, 0.4),
+        (
+            on(Slide::Measured { roll: function("q-q^2"), slide: function("q^2") }),
+            RollingCoordinate::Angle,
+            0.4,
+        ),
         (hollow, RollingCoordinate::Angle, 0.6),
         (wheel, RollingCoordinate::Turning, 5.0),
         (plank.clone(), RollingCoordinate::Arc, 0.4),
@@ -202,7 +208,10 @@ fn subspace_and_its_change_are_derivatives() {
         assert!((shift - column.linear).norm() < 2e-9, "{coordinate:?} {description:?}");
         let (plus, minus) = (joint.subspace(&moved(h), 0), joint.subspace(&moved(-h), 0));
         let change = joint.subspace_change(&here, 0, 0);
-        assert!(((plus.angular - minus.angular) / (2.0 * h) - change.angular).norm() < 5e-9, "{description:?}");
+        assert!(
+            ((plus.angular - minus.angular) / (2.0 * h) - change.angular).norm() < 5e-9,
+            "{description:?}"
+        );
         assert!(((plus.linear - minus.linear) / (2.0 * h) - change.linear).norm() < 5e-9, "{description:?}");
     }
 }
@@ -251,11 +260,8 @@ fn the_first_contact_is_found_from_a_rough_pose() {
     let find = |parent: Boundary, position: Vector3<f64>, angle: f64, concave: bool| {
         let mut law = JointLaw::free(JointKind::Rolling(RollingCoordinate::Angle), Vector3::z());
         law.second_axis = Vector3::x();
-        let contact = Description {
-            start: None,
-            concave,
-            ..description(ellipse(2.0, 1.0, None), parent, Slide::None)
-        };
+        let contact =
+            Description { start: None, concave, ..description(ellipse(2.0, 1.0, None), parent, Slide::None) };
         law.contact = Some(Box::new(Contact::Rolling(contact)));
         let pose = Pose::new(exp(&(Vector3::z() * angle)), position);
         let joint = Joint::new(&law, 1.0, &pose).unwrap();

@@ -215,7 +215,7 @@ impl Results<'_, '_> {
                     silent.set(true);
                     return Err(ExpressionError::new(String::new(), span));
                 };
-                walk.quantity(ProbeTarget::Joint(JointId(position)), &of_joint(joint.law.kind), example)
+                walk.quantity(ProbeTarget::Joint(JointId(position)), &of_joint(&joint.law), example)
             }
             Named::Spring => walk.quantity(ProbeTarget::Spring(SpringId(position)), &of_line(), example),
             Named::Cable => walk.quantity(ProbeTarget::Cable(CableId(position)), &of_line(), example),

@@ -1,7 +1,9 @@
 //! What can be read off a result, and its dimension.
 
 use flexura_expression::Dimension;
-use flexura_model::{CoordinateKind, JointKind, Quantity};
+use flexura_model::{
+    Boundary, BoundaryCurve, Contact, CoordinateKind, JointKind, JointLaw, Quantity, RollingCoordinate,
+};
 
 /// A name behind a beam, a body and so on.
 pub(in crate::build) struct Readable {
@@ -111,7 +113,51 @@ pub(in crate::build) fn coordinates(kind: JointKind) -> Vec<Readable> {
     list
 }
 
-pub(super) fn of_joint(kind: JointKind) -> Vec<Readable> {
+/// What is known of a contact.
+fn of_contact(law: &JointLaw, contact: &Contact) -> Vec<Readable> {
+    let part = |name, quantity, dimension, component| Readable {
+        name,
+        part: Part::Number(quantity, dimension, component),
+    };
+    let (parameters, rate) = match contact {
+        Contact::Rolling(rolling) => {
+            let own = |boundary: &Boundary| match boundary.curve {
+                BoundaryCurve::Ellipse { .. } => Dimension::ANGLE,
+                BoundaryCurve::Line { .. } | BoundaryCurve::Points { .. } => Dimension::LENGTH,
+                BoundaryCurve::Expression { .. } => Dimension::NUMBER,
+            };
+            let by_arc = law.kind == JointKind::Rolling(RollingCoordinate::Arc);
+            let rate = if by_arc { Dimension::NUMBER } else { Dimension::PITCH };
+            (Some([own(&rolling.child), own(&rolling.parent)]), rate)
+        }
+        Contact::Surfaces(_) => (None, Dimension::PITCH),
+    };
+    let side = |which: usize, on| {
+        let mut list = vec![
+            vector("point", on, Dimension::LENGTH),
+            part("radius", Quantity::ContactRadius, Dimension::LENGTH, which),
+        ];
+        if let Some(own) = parameters {
+            list.push(part("parameter", Quantity::ContactParameter, own[which], 2 * which));
+        }
+        Part::Group(list)
+    };
+    vec![
+        vector("point", Quantity::ContactPoint, Dimension::LENGTH),
+        vector("normal", Quantity::ContactNormal, Dimension::NUMBER),
+        number("force", Quantity::ContactForce, Dimension::FORCE),
+        vector("friction", Quantity::ContactFriction, Dimension::FORCE),
+        part("roll", Quantity::ContactTravel, Dimension::LENGTH, 0),
+        part("slide", Quantity::ContactTravel, Dimension::LENGTH, 1),
+        part("roll_rate", Quantity::ContactRate, rate, 0),
+        part("slide_rate", Quantity::ContactRate, rate, 1),
+        Readable { name: "child", part: side(0, Quantity::ContactOnChild) },
+        Readable { name: "parent", part: side(1, Quantity::ContactOnParent) },
+    ]
+}
+
+pub(super) fn of_joint(law: &JointLaw) -> Vec<Readable> {
+    let kind = law.kind;
     let mut list = coordinates(kind);
     let effort = |kind: CoordinateKind| match kind {
         CoordinateKind::Angle => Dimension::MOMENT,
@@ -132,6 +178,9 @@ pub(super) fn of_joint(kind: JointKind) -> Vec<Readable> {
     }
     list.push(vector("force", Quantity::Force, Dimension::FORCE));
     list.push(vector("moment", Quantity::Moment, Dimension::MOMENT));
+    if let Some(contact) = &law.contact {
+        list.push(Readable { name: "contact", part: Part::Group(of_contact(law, contact)) });
+    }
     list
 }
 
