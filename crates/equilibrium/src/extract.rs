@@ -40,6 +40,8 @@ impl Equilibrium {
     /// integration of its own, may be left out. The residual is not evaluated.
     pub fn sampled(&mut self, samples: usize, energies: bool, wanted: impl Fn(usize) -> bool) -> Solution {
         let scale = self.lowered.scale;
+        // What is read off has the wrenches of least norm; the state itself stays, so that a path goes on from it.
+        let state = (!self.slack.is_empty()).then(|| self.x.clone());
         self.least_norm();
         let mut energy = 0.0;
         let mut beams = Vec::with_capacity(self.model.beams.len());
@@ -70,8 +72,9 @@ impl Equilibrium {
             let efforts = (0..joint.coordinates.joint.freedoms())
                 .map(|i| {
                     let h = joint.coordinates.joint.subspace(&configuration, i);
-                    (base.rotation * h.angular).dot(&wrench.moment)
-                        + (base.rotation * h.linear).dot(&wrench.force)
+                    let unit = joint.coordinates.units[i];
+                    (base.rotation * h.angular).dot(&wrench.moment) / unit
+                        + (base.rotation * h.linear).dot(&wrench.force) * (scale.length / unit)
                         + held[i] * scale.moment() / joint.coordinates.units[i]
                         - self.geared(index, i)
                 })
@@ -110,6 +113,10 @@ impl Equilibrium {
         warnings.extend(self.state_warnings());
         let (tubes, stored) = self.sample_nests(samples);
         energy += stored * scale.moment();
+        let couplings = self.multipliers();
+        if let Some(state) = state {
+            self.x = state;
+        }
         Solution {
             status: Status::Converged,
             reason: None,
@@ -126,7 +133,7 @@ impl Equilibrium {
             bodies,
             joints,
             springs,
-            couplings: self.multipliers(),
+            couplings,
             cables,
             tubes,
             tangents: Vec::new(),

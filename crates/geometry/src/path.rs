@@ -11,6 +11,8 @@ pub(crate) enum Path {
     Parametric { position: [Function; 3], range: [f64; 2] },
     /// Through points.
     Spline(Spline),
+    /// Circular arcs in the plane, by arc length.
+    Arcs(Arcs),
     /// (a cos t, b sin t, 0).
     Ellipse { semi_axes: [f64; 2], range: [f64; 2] },
 }
@@ -21,6 +23,7 @@ impl Path {
         match self {
             Path::Parametric { range, .. } | Path::Ellipse { range, .. } => range.to_vec(),
             Path::Spline(spline) => spline.knots().to_vec(),
+            Path::Arcs(arcs) => arcs.knots.clone(),
         }
     }
 
@@ -32,6 +35,7 @@ impl Path {
                 std::array::from_fn(|i| Vector3::new(x[i], y[i], z[i]))
             }
             Path::Spline(spline) => spline.jet(t),
+            Path::Arcs(arcs) => arcs.jet(t),
             Path::Ellipse { semi_axes: [a, b], .. } => {
                 let (sin, cos) = t.sin_cos();
                 let [x, y] = [a * cos, b * sin];
@@ -49,6 +53,47 @@ impl Path {
     /// The local geometry at parameter `t`.
     pub fn local(&self, t: f64) -> Local {
         Local::new(&self.jet(t))
+    }
+}
+
+/// Circular arcs that join smoothly.
+#[derive(Clone, Debug)]
+pub(crate) struct Arcs {
+    /// Arc length at the joints, the ends included.
+    knots: Vec<f64>,
+    /// For each arc: point and direction (angle) at its beginning, curvature.
+    pieces: Vec<([f64; 2], f64, f64)>,
+}
+
+impl Arcs {
+    /// Radius (m) and angle (rad, positive to the left) of each arc, all radii positive.
+    pub fn new(mut point: [f64; 2], mut direction: f64, arcs: &[[f64; 2]]) -> Self {
+        let (mut knots, mut pieces) = (vec![0.0], Vec::new());
+        let mut s = 0.0;
+        for [radius, angle] in arcs {
+            let curvature = angle.signum() / radius;
+            pieces.push((point, direction, curvature));
+            s += radius * angle.abs();
+            knots.push(s);
+            let end = direction + angle;
+            point[0] += (end.sin() - direction.sin()) / curvature;
+            point[1] -= (end.cos() - direction.cos()) / curvature;
+            direction = end;
+        }
+        Self { knots, pieces }
+    }
+
+    fn jet(&self, t: f64) -> [Vector3<f64>; 4] {
+        let i = self.knots.partition_point(|knot| *knot <= t).saturating_sub(1).min(self.pieces.len() - 1);
+        let (point, direction, curvature) = self.pieces[i];
+        let (sin, cos) = (direction + curvature * (t - self.knots[i])).sin_cos();
+        let (sin0, cos0) = direction.sin_cos();
+        [
+            Vector3::new(point[0] + (sin - sin0) / curvature, point[1] - (cos - cos0) / curvature, 0.0),
+            Vector3::new(cos, sin, 0.0),
+            Vector3::new(-sin, cos, 0.0) * curvature,
+            Vector3::new(-cos, -sin, 0.0) * (curvature * curvature),
+        ]
     }
 }
 

@@ -67,6 +67,15 @@ pub enum BoundaryCurve {
         /// First and last parameter; None: without end.
         range: Option<[f64; 2]>,
     },
+    /// Circular arcs that join smoothly; the parameter is the arc length, m.
+    Arcs {
+        /// Where the first begins.
+        point: [f64; 2],
+        /// The direction in which it begins.
+        direction: [f64; 2],
+        /// Radius (m) and angle (rad) of each; a positive angle bends to the left.
+        arcs: Vec<[f64; 2]>,
+    },
     /// A C² cubic spline through points; the parameter is the chord length, m.
     Points {
         /// At least three of a closed curve, two of an open one.

@@ -32,6 +32,19 @@ pub enum BoundaryError {
     /// A line whose normal is zero.
     #[error("the line needs a finite point and a normal other than zero")]
     NoNormal,
+    /// An arc that is none.
+    #[error(
+        "an arc of the boundary needs a positive radius and an angle other than zero, but has {radius} m and {angle} rad"
+    )]
+    Arc {
+        /// Its radius, m.
+        radius: f64,
+        /// Its angle, rad.
+        angle: f64,
+    },
+    /// Arcs that begin nowhere.
+    #[error("the boundary needs at least one arc, and a direction other than zero in which the first begins")]
+    NoDirection,
     /// The curve itself cannot be used.
     #[error(transparent)]
     Shape(#[from] ShapeError),

@@ -12,7 +12,7 @@ pub use error::BoundaryError;
 pub use function::FunctionSpline;
 
 use crate::cells::{self, Cell};
-use crate::path::Path;
+use crate::path::{Arcs, Path};
 use crate::smooth::{refuse_corners, refuse_cusps, samples};
 use crate::spline::Spline;
 use flexura_expression::Function;
@@ -89,6 +89,19 @@ impl Contour {
                     return Err(BoundaryError::MoreThanATurn { from: span[0], to: span[1] });
                 }
                 (Path::Ellipse { semi_axes: *semi_axes, range: span }, range.is_none(), boundary.outside)
+            }
+            BoundaryCurve::Arcs { point, direction, arcs } => {
+                for [radius, angle] in arcs {
+                    let sound = radius.is_finite() && *radius > 0.0 && angle.is_finite() && *angle != 0.0;
+                    if !sound {
+                        return Err(BoundaryError::Arc { radius: *radius, angle: *angle });
+                    }
+                }
+                let start = direction[1].atan2(direction[0]);
+                if arcs.is_empty() || !start.is_finite() || direction == &[0.0; 2] {
+                    return Err(BoundaryError::NoDirection);
+                }
+                (Path::Arcs(Arcs::new(*point, start, arcs)), false, boundary.outside)
             }
             BoundaryCurve::Points { points, closed } => {
                 let points: Vec<_> = points.iter().map(|[x, y]| Vector3::new(*x, *y, 0.0)).collect();

@@ -123,3 +123,24 @@ fn a_spline_through_points_of_an_ellipse_converges_to_it() {
     let (coarse, fine) = (worst(40), worst(80));
     assert!(fine < 1e-5 && coarse / fine > 10.0, "{coarse} {fine}");
 }
+
+#[test]
+fn arcs_join_smoothly() {
+    let curve = BoundaryCurve::Arcs {
+        point: [0.0, 0.0],
+        direction: [1.0, 0.0],
+        arcs: vec![[2.0, PI / 6.0], [1.0, PI / 3.0], [0.5, -PI / 4.0]],
+    };
+    let contour = Contour::new(&Boundary { curve, outside: None }).expect("arcs");
+    let length = 2.0 * PI / 6.0 + PI / 3.0 + 0.5 * PI / 4.0;
+    assert!((contour.length().expect("open") - length).abs() < 1e-14);
+    let end = contour.at(2.0 * PI / 6.0 + PI / 3.0).expect("in");
+    // The first arc's centre is (0, 2), the second's lies 1 nearer to their common point.
+    let centre = [2.0 * (PI / 6.0).sin() * 0.5, 2.0 - (PI / 6.0).cos()];
+    assert!((end.point[0] - centre[0] - 1.0).abs() < 1e-14 && (end.point[1] - centre[1]).abs() < 1e-14);
+    for (s, curvature) in [(0.3, 0.5), (1.5, 1.0), (2.3, -2.0)] {
+        assert!((contour.at(s).expect("in").curvature - curvature).abs() < 1e-14);
+    }
+    let none = BoundaryCurve::Arcs { point: [0.0; 2], direction: [1.0, 0.0], arcs: vec![[1.0, 0.0]] };
+    assert!(matches!(Contour::new(&Boundary { curve: none, outside: None }), Err(BoundaryError::Arc { .. })));
+}

@@ -98,6 +98,15 @@ fn boundary(reader: &Reader<'_, '_>) -> Read<Boundary> {
             let (point, normal, range) = (two("point"), two("normal").needed(), two("range"));
             BoundaryCurve::Line { point: point?.unwrap_or([0.0; 2]), normal: normal?, range: range? }
         }
+        "arcs" => {
+            let (point, direction) = (two("point"), two("direction"));
+            let arcs = pairs(reader, "arcs", [Dimension::LENGTH, Dimension::ANGLE])?;
+            BoundaryCurve::Arcs {
+                point: point?.unwrap_or([0.0; 2]),
+                direction: direction?.unwrap_or([1.0, 0.0]),
+                arcs,
+            }
+        }
         "points" => {
             let closed = reader.flag("closed");
             BoundaryCurve::Points { points: plane_points(reader)?, closed: closed?.unwrap_or(true) }
@@ -171,7 +180,9 @@ fn pairs(reader: &Reader<'_, '_>, name: &str, dimensions: [Dimension; 2]) -> Rea
 fn parameter_dimension(curve: &BoundaryCurve) -> Option<Dimension> {
     match curve {
         BoundaryCurve::Ellipse { .. } => Some(Dimension::ANGLE),
-        BoundaryCurve::Line { .. } | BoundaryCurve::Points { .. } => Some(Dimension::LENGTH),
+        BoundaryCurve::Line { .. } | BoundaryCurve::Arcs { .. } | BoundaryCurve::Points { .. } => {
+            Some(Dimension::LENGTH)
+        }
         BoundaryCurve::Expression { .. } => None,
     }
 }

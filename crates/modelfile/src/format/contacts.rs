@@ -78,6 +78,34 @@ pub(crate) static BOUNDARY: Table = Table {
                 ],
             ),
             variant(
+                "arcs",
+                "Circular arcs that join smoothly; the parameter is the arc length.",
+                &[
+                    key(
+                        "point",
+                        Shape::Range(D::LENGTH),
+                        Default("[0, 0]"),
+                        "[\"5 mm\", 0]",
+                        "Where the first begins.",
+                    ),
+                    key(
+                        "direction",
+                        Shape::Range(D::NUMBER),
+                        Default("[1, 0]"),
+                        "[0, 1]",
+                        "The direction in which it begins.",
+                    ),
+                    key(
+                        "arcs",
+                        Shape::Pairs,
+                        Required,
+                        "[[\"32 mm\", \"30 deg\"], [\"21 mm\", \"90 deg\"]]",
+                        "Radius and angle of each; a positive angle bends to the left.",
+                    ),
+                    OUTSIDE,
+                ],
+            ),
+            variant(
                 "points",
                 "A smooth curve (C2 cubic spline) through points; the parameter is the length of the chords, m.",
                 &[

@@ -77,8 +77,10 @@ pub fn joint(canvas: &mut Canvas, panel: &Panel, joint: &JointMark) {
     }
     match (joint.kind, along) {
         (JointKind::Weld, _) => {}
-        // The boundaries themselves are drawn.
-        (JointKind::Rolling(_) | JointKind::Contact, _) => {}
+        // The boundaries themselves are drawn; this is where they touch.
+        (JointKind::Rolling(_) | JointKind::Contact, _) => {
+            canvas.circle(at, 2.6, LOAD, &Style::line("#ffffff", 0.8))
+        }
         // It holds nothing, but what it measures and what springs it may carry is measured from here.
         (JointKind::Free, _) => canvas.circle(at, 9.0, "none", &Style::line(FAINT, 1.1).dashed("2 3")),
         (JointKind::Prismatic, Some(u)) => rails(canvas, at, u, 6.0, joint.is_grounded),
@@ -170,7 +172,9 @@ pub fn body(
     }
     let is_covered = joints.iter().any(|joint| {
         let at = panel.point(&joint.point);
-        !matches!(joint.kind, JointKind::Weld | JointKind::Free | JointKind::Prismatic)
+        let bare = matches!(joint.kind, JointKind::Weld | JointKind::Free | JointKind::Prismatic);
+        !bare
+            && !matches!(joint.kind, JointKind::Rolling(_) | JointKind::Contact)
             && (at[0] - now[0]).hypot(at[1] - now[1]) < 4.0
     });
     if !is_covered {

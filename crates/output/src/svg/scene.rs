@@ -208,7 +208,7 @@ fn add_beam_ends(model: &Model, solution: &Solution, bodies: &mut [BodyMark]) ->
 
 fn add_joints(model: &Model, solution: &Solution, bodies: &mut [BodyMark]) -> Vec<JointMark> {
     let mut marks = Vec::new();
-    for joint in &model.joints {
+    for (joint, result) in model.joints.iter().zip(&solution.joints) {
         let fixed = final_pose(solution, joint.parent.mount) * joint.parent.pose;
         add_arm(model, solution, bodies, joint.parent.mount, &joint.parent.pose);
         let child_pose = joint.child_pose.unwrap_or_else(|| {
@@ -218,7 +218,7 @@ fn add_joints(model: &Model, solution: &Solution, bodies: &mut [BodyMark]) -> Ve
         let moving = final_pose(solution, joint.child) * child_pose;
         add_arm(model, solution, bodies, joint.child, &child_pose);
         marks.push(JointMark {
-            point: moving.position,
+            point: result.contact.map_or(moving.position, |contact| contact.point),
             axis: fixed.rotation * joint.law.axis,
             kind: joint.law.kind,
             is_grounded: joint.parent.mount == Mount::Ground || joint.child == Mount::Ground,

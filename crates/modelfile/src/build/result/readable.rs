@@ -123,7 +123,9 @@ fn of_contact(law: &JointLaw, contact: &Contact) -> Vec<Readable> {
         Contact::Rolling(rolling) => {
             let own = |boundary: &Boundary| match boundary.curve {
                 BoundaryCurve::Ellipse { .. } => Dimension::ANGLE,
-                BoundaryCurve::Line { .. } | BoundaryCurve::Points { .. } => Dimension::LENGTH,
+                BoundaryCurve::Line { .. } | BoundaryCurve::Arcs { .. } | BoundaryCurve::Points { .. } => {
+                    Dimension::LENGTH
+                }
                 BoundaryCurve::Expression { .. } => Dimension::NUMBER,
             };
             let by_arc = law.kind == JointKind::Rolling(RollingCoordinate::Arc);
