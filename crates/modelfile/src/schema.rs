@@ -163,6 +163,7 @@ fn value(shape: &Shape) -> String {
         Shape::NamedNumbers | Shape::NamedTargets => named(refer("number")),
         Shape::NamedOutputs => named(type_of("string")),
         Shape::Points => list(refer("vector"), None, 2),
+        Shape::ForceRows => list(list_of("number", 2), None, 2),
         Shape::Along => list(
             object(&[
                 ("type", text("object")),

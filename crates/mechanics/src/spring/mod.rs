@@ -9,7 +9,7 @@ pub mod wrap;
 
 pub use law::{Pull, TensionLaw};
 pub use table::MonotoneTable;
-pub use wrap::{Around, Obstacle, PathError, Turn};
+pub use wrap::{Around, Obstacle, PathError};
 
 use flexura_spatial::{Matrix3, Vector3};
 

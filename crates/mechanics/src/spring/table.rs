@@ -70,11 +70,8 @@ impl MonotoneTable {
         let t = (x - a.x) / h;
         let rise = b.force - a.force;
         // The cubic a.force + h (c1 t + c2 t² + c3 t³).
-        let [c1, c2, c3] = [
-            a.slope,
-            3.0 * rise / h - 2.0 * a.slope - b.slope,
-            a.slope + b.slope - 2.0 * rise / h,
-        ];
+        let [c1, c2, c3] =
+            [a.slope, 3.0 * rise / h - 2.0 * a.slope - b.slope, a.slope + b.slope - 2.0 * rise / h];
         let force = a.force + h * t * (c1 + t * (c2 + t * c3));
         let slope = c1 + t * (2.0 * c2 + t * 3.0 * c3);
         let inner = t * (a.force + h * t * (c1 / 2.0 + t * (c2 / 3.0 + t * c3 / 4.0)));

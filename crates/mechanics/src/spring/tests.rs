@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
+use flexura_model::Turn;
 use flexura_testkit::check_jacobian;
 use nalgebra::{DMatrix, UnitQuaternion};
 
@@ -61,8 +62,7 @@ fn the_tangent_of_every_law_is_the_derivative_of_its_force() {
             let to = from + V::new(0.6, -0.35, 0.5).normalize() * length;
             let force = |to: &V| spring.between(&from, to).unwrap();
             let tangent = DMatrix::from_fn(3, 3, |i, j| force(&to).tangent[(i, j)]);
-            let numerical =
-                DMatrix::from_fn(3, 3, |i, j| slope(&|x| force(&(to + V::ith(j, x))).force[i]));
+            let numerical = DMatrix::from_fn(3, 3, |i, j| slope(&|x| force(&(to + V::ith(j, x))).force[i]));
             let size = tangent.amax().max(1.0);
             assert!((numerical - tangent).amax() < 1e-10 * size, "{name} at {length}");
         }
@@ -173,7 +173,7 @@ fn a_table_rises_where_its_rows_do_and_goes_through_them() {
     assert!(MonotoneTable::new(&[[0.0, 1.0], [1.0, 0.5]]).is_none());
 }
 
-/// By SciPy's PchipInterpolator([0, 1, 3, 4], [0, 1, 2, 6]), whose slopes are 7/6, 0.7 ..: the harmonic means by hand.
+/// The means of Fritsch and Butland and the three-point formula, worked by hand.
 #[test]
 fn slopes_of_a_table_are_weighted_harmonic_means() {
     let table = MonotoneTable::new(&[[0.0, 0.0], [1.0, 1.0], [3.0, 2.0], [4.0, 6.0]]).unwrap();
@@ -248,9 +248,7 @@ fn the_course_is_as_long_as_the_path_and_stays_on_the_surface() {
         }
         // Ends leave along the tangents.
         let last = course.len() - 1;
-        for (end, next, gradient) in
-            [(0, 1, path.gradient[0]), (last, last - 1, path.gradient[1])]
-        {
+        for (end, next, gradient) in [(0, 1, path.gradient[0]), (last, last - 1, path.gradient[1])] {
             let way = (course[next] - course[end]).normalize();
             assert!((way + gradient).norm() < 1e-12, "{name}");
         }
@@ -265,8 +263,8 @@ fn wrapped_lengths_are_the_closed_forms() {
     let r = 0.4f64;
     let (da, db) = (a.norm(), b.norm());
     let angle = a.angle(&b);
-    let flat = (da * da - r * r).sqrt() + (db * db - r * r).sqrt()
-        + r * (angle - (r / da).acos() - (r / db).acos());
+    let flat =
+        (da * da - r * r).sqrt() + (db * db - r * r).sqrt() + r * (angle - (r / da).acos() - (r / db).acos());
     let length = |obstacle: Obstacle, b: &V| obstacle.around(&a, b).unwrap().unwrap().length;
     assert!((length(Obstacle::Sphere { radius: r }, &b) - flat).abs() < 1e-14);
     let cylinder = |turn| Obstacle::Cylinder { radius: r, axis: V::z(), turn };

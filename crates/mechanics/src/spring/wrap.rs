@@ -19,6 +19,7 @@
 //! -r/(A B sin γ) n nᵀ, those of the angle between two directions. A cylinder's surface and the tangent planes unroll into
 //! a plane, in which the path is straight: ℓ = √(λ² + z²), λ being the planar length across the axis and z the distance along it.
 
+use flexura_model::Turn;
 use flexura_spatial::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
@@ -29,15 +30,6 @@ const OPPOSITE: f64 = 1e-9;
 
 /// The largest turn between two points of a course, rad.
 const ARC_STEP: f64 = PI / 36.0;
-
-/// To which side a path goes around a cylinder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Turn {
-    /// From the first end to the second, right-handedly about the axis.
-    Positive,
-    /// The other way.
-    Negative,
-}
 
 /// What the path goes around.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,6 +7,7 @@ mod attachments;
 mod joints;
 mod relations;
 mod sections;
+mod springs;
 mod studies;
 mod tables;
 mod tubes;
@@ -171,6 +172,8 @@ pub(crate) enum Shape {
     Offset,
     /// A list of points.
     Points,
+    /// Rows of elongation and force.
+    ForceRows,
     /// Rows of dimensions along the beam, keys as in the same table.
     Along,
     /// The number 1.
@@ -251,6 +254,7 @@ impl Shape {
             Shape::Equation => "an equation between joint coordinates".into(),
             Shape::Offset => "three lengths, or two lengths or expressions of s".into(),
             Shape::Points => "a list of points, each three numbers (m)".into(),
+            Shape::ForceRows => "a list of rows, each an elongation (m) and a force (N)".into(),
             Shape::Along => "a list of rows, each `at` and the dimensions there".into(),
             Shape::Version => "the number 1".into(),
         }

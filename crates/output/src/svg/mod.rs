@@ -99,7 +99,7 @@ fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
         canvas.curve(&pieces(panel, &beam.initial), &initial);
     }
     for spring in &scene.springs {
-        marks::spring(canvas, panel.point(&spring[0]), panel.point(&spring[1]));
+        marks::spring(canvas, panel, spring);
     }
     let arm_style = Style::line("#555555", 2.6);
     for body in &scene.bodies {

@@ -1,7 +1,7 @@
 //! What can be read off a result, and its dimension.
 
 use flexura_expression::Dimension;
-use flexura_model::{CoordinateKind, JointKind, Quantity};
+use flexura_model::{CoordinateKind, JointKind, Quantity, SpringLaw};
 
 /// A name behind a beam, a body and so on.
 pub(in crate::build) struct Readable {
@@ -132,6 +132,16 @@ pub(super) fn of_joint(kind: JointKind) -> Vec<Readable> {
     }
     list.push(vector("force", Quantity::Force, Dimension::FORCE));
     list.push(vector("moment", Quantity::Moment, Dimension::MOMENT));
+    list
+}
+
+/// Of a spring; only the exponential law knows its area.
+pub(super) fn of_spring(law: &SpringLaw) -> Vec<Readable> {
+    let mut list = of_line();
+    list.push(number("strain", Quantity::Strain, Dimension::NUMBER));
+    if let SpringLaw::Exponential { .. } = law {
+        list.push(number("stress", Quantity::Stress, Dimension::PRESSURE));
+    }
     list
 }
 
