@@ -289,7 +289,7 @@ fn the_tangent_is_the_derivative_of_the_residual() {
             problem.evaluate(false).unwrap();
             problem.r.clone()
         };
-        let h = 2e-3;
+        let h = 5e-4;
         let s = [h, -h, 2.0 * h, -2.0 * h, 3.0 * h, -3.0 * h].map(|x| at(&mut problem, x));
         let mut column: Vec<f64> = (0..n)
             .map(|i| {

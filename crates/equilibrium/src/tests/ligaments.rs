@@ -34,8 +34,8 @@ pub(super) fn add_ligaments(m: &mut Model) {
         obstacle: rod(Some(Turn::Negative)),
     });
     let on_beam = Some(Wrap {
-        frame: Frame { mount: on(1, 0.25).mount, pose: Pose::new(turn, Vector3::new(0.1, 1.5, 0.0)) },
-        obstacle: Obstacle::Sphere { radius: 0.1 },
+        frame: Frame { mount: on(1, 0.25).mount, pose: Pose::new(turn, Vector3::new(0.05, -0.05, 0.0)) },
+        obstacle: Obstacle::Sphere { radius: 0.25 },
     });
     let toe = SpringLaw::Toe { axial_stiffness: 0.7, toe_strain: 0.2 };
     let table = SpringLaw::Table { rows: vec![[-0.1, 0.0], [0.2, 0.1], [0.5, 0.4], [1.5, 0.9]] };
@@ -62,7 +62,7 @@ pub(super) fn add_ligaments(m: &mut Model) {
         spring(
             "over a rod",
             global(0, 1.2, 0.2, 0.1),
-            global(2, 0.2, 0.3, 0.6),
+            global(2, 0.2, 0.5, 0.6),
             table,
             0.5,
             on_body(3, 0.6, 0.3, 0.4, rod(None)),
@@ -75,8 +75,7 @@ pub(super) fn add_ligaments(m: &mut Model) {
             0.8,
             on_ground,
         ),
-        // Both ends on what carries the obstacle's neighbour, one of them on the ground.
-        spring("over a beam", on(1, 0.25), ground(1.5, 3.5, 0.5), band, 0.5, on_beam),
+        spring("over a beam", ground(2.19, 0.78, 0.42), global(2, 0.6, 0.65, 0.1), band, 0.5, on_beam),
     ];
     m.springs.extend(ligaments);
 }
