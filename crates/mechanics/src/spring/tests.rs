@@ -324,10 +324,16 @@ fn a_line_that_clears_the_obstacle_is_straight_and_touching_is_smooth() {
     let touching = along(0.5 - 1e-9).unwrap();
     assert!((touching.length - 2.0).abs() < 1e-12);
     assert!((touching.gradient[1] - V::x()).norm() < 1e-7);
-    // With a side given, a line that is clear is straight all the same.
-    let left = Obstacle::Cylinder { radius: 0.5, axis: V::z(), turn: Some(Turn::Positive) };
-    for y in [0.6, -0.6] {
-        assert!(left.around(&V::new(-1.0, y, 0.0), &V::new(1.0, y, 0.0)).unwrap().is_none());
+    // With a side given, a line that is clear on that side is straight; on the other the path is hung around.
+    let below = Obstacle::Cylinder { radius: 0.5, axis: V::z(), turn: Some(Turn::Positive) };
+    let at = |y: f64| below.around(&V::new(-1.0, y, 0.0), &V::new(1.0, y, 0.0)).unwrap();
+    assert!(at(-0.6).is_none());
+    assert!(at(0.6).unwrap().contact() > 1.0);
+    // Nothing happens where the line passes the axis, or where it gets clear of the other side.
+    for y in [0.0, 0.5] {
+        let (before, after) = (at(y - 1e-9).unwrap(), at(y + 1e-9).unwrap());
+        assert!((before.length - after.length).abs() < 1e-8);
+        assert!((before.gradient[0] - after.gradient[0]).norm() < 1e-8);
     }
 }
 

@@ -45,7 +45,7 @@ pub enum Obstacle {
         radius: f64,
         /// Unit vector.
         axis: V,
-        /// The side; None: the shorter way.
+        /// The side, for good: the angle from a to b about the axis is then counted from 0 to 2π; None: the shorter way.
         turn: Option<Turn>,
     },
 }
@@ -233,10 +233,7 @@ fn around_cylinder(
         None => 1.0,
     };
     let normal = axis * sign;
-    // A line that clears the cylinder is straight, whatever the side; else the way there may be more than half a turn.
-    if planar(radius, [&flat_a, &flat_b], distances, &normal, signed.abs()).is_none() {
-        return Ok(None);
-    }
+    // With the axis on the wrong side of the line between the ends, the way there is more than half a turn.
     let angle = if sign * signed < 0.0 { TAU - signed.abs() } else { signed.abs() };
     let Some(path) = planar(radius, [&flat_a, &flat_b], distances, &normal, angle) else { return Ok(None) };
     let rise = heights[1] - heights[0];

@@ -40,7 +40,7 @@ static WRAP: Table = table(
             ]),
             Default("the shorter way"),
             "\"positive\"",
-            "Of a cylinder: the side for good, so that the path may go on beyond half a turn. Where the line between the ends is clear, it is straight all the same.",
+            "Of a cylinder: the side for good, so that the path may go on beyond half a turn. It is straight where the line between the ends is clear on that side.",
         ),
     ],
 );
