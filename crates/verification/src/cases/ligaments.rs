@@ -230,7 +230,8 @@ fn paths() -> Result<Vec<Row>, String> {
 fn lever() -> Result<Vec<Row>, String> {
     let mut rows = Vec::new();
     let (radius, stiffness, hinge, foot, center) = (0.1, 8.0, 0.6, [0.2, 0.7], [0.3, 0.35]);
-    for (turn, effort) in [("", -1.5), ("", 0.2), (", turn = \"positive\"", -1.0)] {
+    let left = ", turn = \"positive\"";
+    for (turn, effort) in [("", -0.7), ("", 0.2), (left, -0.5), (left, -1.0)] {
         let text = format!(
             r#"
 format = 1
@@ -271,7 +272,7 @@ tension = "spring.band.tension"
         let angle = root(moment, -1.2, 0.4).ok_or("no root")?;
         let tension = stiffness * (band(angle).ok_or("no path")?.0 - rest).max(0.0);
         let answer = File::new(&text)?.solve(&[], 1e-12)?;
-        let what = format!("effort {effort}{turn}");
+        let what = format!("effort {effort}, {}", if turn.is_empty() { "right" } else { "left" });
         rows.push(Row::absolute(format!("angle, {what}"), angle, answer.number("angle"), 1e-10));
         rows.push(Row::absolute("tension", tension, answer.number("tension"), 1e-10));
     }
