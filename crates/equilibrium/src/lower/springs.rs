@@ -113,7 +113,7 @@ fn law_of(law: &SpringLaw, size: f64, scale: &Scale) -> TensionLaw {
             let rows: Vec<[f64; 2]> = rows.iter().map(|[x, f]| [x * length, f * force]).collect();
             // Rows that do not rise were refused before; a band that does nothing stands for none.
             let nothing = TensionLaw::Linear { stiffness: 0.0, tension_only: false };
-            MonotoneTable::new(&rows).map_or(nothing, TensionLaw::Table)
+            MonotoneTable::new(&rows).map_or(nothing, |table| TensionLaw::Table(table.into()))
         }
     }
 }

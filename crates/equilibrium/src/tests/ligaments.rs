@@ -3,6 +3,7 @@
 use super::{disturbed, everything};
 use crate::Equilibrium;
 use flexura_model::*;
+use flexura_nonlinear::System;
 use flexura_spatial::{Pose, Vector3, exp};
 
 /// On the ground, on bodies and on beams, all of them taut, and some around obstacles on a body, a beam and the ground.
@@ -95,4 +96,55 @@ fn the_ligaments_of_the_model_of_everything_are_taut_and_go_around() {
         }
     }
     assert_eq!(around, 4);
+}
+
+/// Forces on the ends and on what carries the obstacle: no net force, no net moment, and the power of a motion is the tension
+/// times the rate of the length.
+#[test]
+fn what_acts_on_three_bodies_is_in_balance_and_does_the_work_of_the_tension() {
+    let all = everything();
+    for name in ["over a body", "over a rod", "the long way"] {
+        let mut model = Model { bodies: all.bodies.clone(), ..Model::default() };
+        model.bodies.iter_mut().for_each(|body| body.mass = 0.0);
+        // What is on the ground in the model of everything is put on a fourth body.
+        model.bodies.push(super::body("ground", [0.0; 3], [0.0; 3]));
+        let carried = |mount: &mut Mount| {
+            if *mount == Mount::Ground {
+                *mount = Mount::Body(BodyId(4));
+            }
+        };
+        let mut spring = all.springs.iter().find(|spring| spring.name == name).unwrap().clone();
+        carried(&mut spring.from.mount);
+        carried(&mut spring.to.mount);
+        spring.wrap.iter_mut().for_each(|wrap| carried(&mut wrap.frame.mount));
+        model.springs.push(spring);
+        let mut problem = Equilibrium::new(&model).unwrap();
+        disturbed(&mut problem, 0.05);
+        problem.evaluate(false).unwrap();
+        let course = problem.spring_course(0).unwrap();
+        assert!(course.around.is_some(), "{name}");
+        let tension = problem.spring_law(0).pull(course.length).tension;
+        let r = problem.r.clone();
+        let triple = |at: usize| Vector3::new(r[at], r[at + 1], r[at + 2]);
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        for (i, slot) in problem.layout.nodes.clone().iter().enumerate() {
+            let own = triple(slot.unknown + 3);
+            force += own;
+            moment += triple(slot.unknown) + problem.node_pose(Some(i)).position.cross(&own);
+        }
+        assert!(tension > 0.1 && force.norm() < 1e-14 && moment.norm() < 1e-14, "{name}: {force} {moment}");
+        let mut kept = Vec::new();
+        problem.store(&mut kept);
+        let step: Vec<f64> = (0..problem.unknowns()).map(|i| ((5 * i + 2) as f64).cos()).collect();
+        let mut length = |t: f64| {
+            problem.restore(&kept);
+            problem.retract(&step.iter().map(|s| s * t).collect::<Vec<_>>());
+            problem.spring_course(0).unwrap().length
+        };
+        // Small, as a body's whole turn is one unit of the step and one end comes close to the surface.
+        let h = 2e-5;
+        let rate = (8.0 * (length(h) - length(-h)) - (length(2.0 * h) - length(-2.0 * h))) / (12.0 * h);
+        let power: f64 = r.iter().zip(&step).map(|(r, s)| r * s).sum();
+        assert!((power + tension * rate).abs() < 1e-9, "{name}: {power} {}", tension * rate);
+    }
 }

@@ -1,6 +1,7 @@
 //! Tension against stretch x = ℓ - ℓ0 or strain ε = x/ℓ0.
 
 use super::table::MonotoneTable;
+use std::sync::Arc;
 
 /// Closer to slack than this part of ℓ0, the side on which a spring is cannot be told.
 const ROUND_OFF: f64 = 1e-12;
@@ -34,8 +35,8 @@ pub enum TensionLaw {
         /// ε_t.
         toe_strain: f64,
     },
-    /// T(x) through given points.
-    Table(MonotoneTable),
+    /// T(x) through given points; shared, as laws are copied at every evaluation.
+    Table(Arc<MonotoneTable>),
 }
 
 /// Tension and its derivative by the length.

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, UnitQuaternion};
 type V = Vector3<f64>;
 
 fn table(rows: &[[f64; 2]]) -> TensionLaw {
-    TensionLaw::Table(MonotoneTable::new(rows).unwrap())
+    TensionLaw::Table(MonotoneTable::new(rows).unwrap().into())
 }
 
 /// Every law, with lengths on either side of what is special about it.
