@@ -17,7 +17,7 @@ pub const CASES: [Case; 5] = [
     Case {
         id: "ligament_geometry",
         title: "`wing_ligaments.toml`: the same with the ends where they really go",
-        citation: "|L + δ d| - |L| in the same law; effort of the drive by virtual work",
+        citation: "distance of the displaced ends less that at rest, in the same law; effort of the drive by virtual work",
         needed: "1e-10",
         run: geometry,
         closed_form: None,
