@@ -1,4 +1,4 @@
-//! Residual and tangent of what couples nodes: joints, couplings of their coordinates, point loads, springs, cables.
+//! Residual and tangent of what couples nodes: joints, couplings of their coordinates, point loads, cables.
 
 use crate::assembly::{Sink, unit};
 use crate::held::HoldRef;
@@ -6,7 +6,7 @@ use crate::lower::RopeLaw;
 use crate::shooting::{Pull, SegmentEnd};
 use crate::system::{Equilibrium, read_pose};
 use flexura_mechanics::joint::Kinematics;
-use flexura_mechanics::spring::{LinearSpring, SpringForce, constant_tension};
+use flexura_mechanics::spring::{SpringForce, constant_tension};
 use flexura_spatial::{Vector3, Wrench, log};
 
 type V = Vector3<f64>;
@@ -115,37 +115,21 @@ impl Equilibrium {
         }
     }
 
-    /// The spring's ends, global, nondimensional.
-    pub(crate) fn spring_ends(&self, index: usize) -> [V; 2] {
-        self.lowered.springs[index].ends.map(|(node, point)| self.node_pose(node).point(&point))
-    }
-
-    /// The law at the present load: the rest length moves from the initial length.
-    pub(crate) fn spring_law(&self, index: usize) -> LinearSpring {
-        let link = &self.lowered.springs[index];
-        let rest = link.initial_length + self.load * (link.law.rest_length - link.initial_length);
-        LinearSpring { rest_length: rest, ..link.law }
-    }
-
-    pub(crate) fn evaluate_springs(&self, sink: &mut Sink<'_>) {
-        for (index, link) in self.lowered.springs.iter().enumerate() {
-            let ends = self.spring_ends(index);
-            match self.spring_law(index).between(&ends[0], &ends[1]) {
-                Some(force) => self.pull(&link.ends, &ends, &force, sink),
-                None => self.refuse(&link.ends, sink),
-            }
-        }
-    }
-
-    /// Two ends have met, so that what pulls between them has no direction: the state is refused.
-    fn refuse(&self, ends: &[(Option<usize>, V); 2], sink: &mut Sink<'_>) {
+    /// What pulls between these points has no direction, as where two have met: the state is refused.
+    pub(crate) fn refuse(&self, ends: &[(Option<usize>, V)], sink: &mut Sink<'_>) {
         if let Some((Some(node), _)) = ends.iter().find(|(node, _)| node.is_some()) {
             sink.r[self.layout.nodes[*node].unknown] = f64::NAN;
         }
     }
 
     /// Forces along a line between two points on nodes.
-    fn pull(&self, on: &[(Option<usize>, V); 2], ends: &[V; 2], force: &SpringForce, sink: &mut Sink<'_>) {
+    pub(crate) fn pull(
+        &self,
+        on: &[(Option<usize>, V); 2],
+        ends: &[V; 2],
+        force: &SpringForce,
+        sink: &mut Sink<'_>,
+    ) {
         for (which, (node, _)) in on.iter().enumerate() {
             let Some(node) = *node else { continue };
             let rows = self.layout.nodes[node].unknown;

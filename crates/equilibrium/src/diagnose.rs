@@ -241,9 +241,9 @@ impl Equilibrium {
         unnamed()
     }
 
-    /// Warnings about the state: coordinates beyond their limits.
+    /// Warnings about the state: springs beyond their tables, coordinates beyond their limits.
     pub(crate) fn state_warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
+        let mut warnings = self.spring_warnings();
         let spans = self.lowered.spans.iter().zip(&self.layout.spans).enumerate();
         let holds = spans.flat_map(|(i, (span, slots))| {
             let end = span

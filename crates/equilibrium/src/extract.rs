@@ -2,9 +2,7 @@
 
 use crate::system::Equilibrium;
 use flexura_mechanics::joint::{ContactState, Kinematics};
-use flexura_solution::{
-    BeamSolution, ContactSolution, JointSolution, Solution, SpringSolution, Status, Work,
-};
+use flexura_solution::{BeamSolution, ContactSolution, JointSolution, Solution, Status, Work};
 use flexura_spatial::{Pose, Wrench};
 
 /// Nodes and weights of three-point Gauss quadrature on [0, 1].
@@ -90,18 +88,8 @@ impl Equilibrium {
                     .map(|contact| touched(&contact, &scale.pose_out(&base), &wrench)),
             });
         }
-        let mut springs = Vec::new();
-        for i in 0..self.lowered.springs.len() {
-            let ends = self.spring_ends(i);
-            let law = self.spring_law(i);
-            let length = (ends[1] - ends[0]).norm();
-            energy += law.energy(length) * scale.moment();
-            springs.push(SpringSolution {
-                ends: ends.map(|p| p * scale.length),
-                length: length * scale.length,
-                tension: law.stiffness * (length - law.rest_length) * scale.force,
-            });
-        }
+        let (springs, stored) = self.spring_solutions();
+        energy += stored * scale.moment();
         for (span, slots) in self.lowered.spans.iter().zip(&self.layout.spans) {
             energy +=
                 span.start.coordinates.energy(&self.configuration(&slots.start), self.load) * scale.moment();

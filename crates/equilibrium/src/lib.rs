@@ -38,6 +38,7 @@ mod redundancy;
 mod samples;
 mod scale;
 mod shooting;
+mod springs;
 mod stability;
 mod stand;
 mod system;

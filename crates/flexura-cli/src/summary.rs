@@ -211,9 +211,10 @@ fn joints(summary: &Summary) -> Table {
 }
 
 fn springs(summary: &Summary) -> Table {
-    let mut table = Table::new(&["springs", "length", "tension"]);
-    for (name, length, tension) in &summary.springs {
-        table.row(vec![name.clone(), quantity(*length, "m", 5), quantity(*tension, "N", 5)]);
+    let mut table = Table::new(&["springs", "length", "tension", "strain"]);
+    for (name, length, tension, strain) in &summary.springs {
+        let strain = strain.map_or("-".to_string(), |strain| number(strain, 4));
+        table.row(vec![name.clone(), quantity(*length, "m", 5), quantity(*tension, "N", 5), strain]);
     }
     table
 }

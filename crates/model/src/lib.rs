@@ -16,6 +16,7 @@ mod material;
 mod notch;
 mod output;
 mod profile;
+mod spring;
 mod study;
 mod tubes;
 mod validate;
@@ -30,11 +31,12 @@ pub use inverse::{Target, Unknown};
 pub use joint::{
     CoordinateKind, CoordinateLaw, Coupling, CouplingTerm, Drive, Joint, JointKind, JointLaw, Limits, across,
 };
-pub use load::{Attachment, BeamPoint, Load, LoadFrame, LoadTarget, PointMass, Spring, SpringLaw};
+pub use load::{Attachment, BeamPoint, Load, LoadFrame, LoadTarget, PointMass};
 pub use material::{Material, Section, Shape};
 pub use notch::{Notch, NotchShape};
 pub use output::{Output, Probe, ProbeTarget, Quantity};
 pub use profile::{At, Profile};
+pub use spring::{ExponentialForm, Obstacle, Spring, SpringLaw, Turn, Wrap};
 pub use study::{BuckleStudy, CriticalStudy, Stop, Study, StudyKind, TraceStudy};
 pub use tubes::{Tube, Tubes};
 pub use validate::{Issue, name_problem};

@@ -1,4 +1,4 @@
-//! Point loads, lumped masses and springs.
+//! Point loads, lumped masses and points of attachment.
 
 use crate::{At, BeamId, Mount};
 use flexura_spatial::Vector3;
@@ -75,29 +75,4 @@ impl Attachment {
     pub fn on_beam(point: BeamPoint) -> Self {
         Self { mount: Mount::Beam(point), point: Vector3::zeros() }
     }
-}
-
-/// A spring between two points.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Spring {
-    /// Its name, unique among springs.
-    pub name: String,
-    /// One end.
-    pub from: Attachment,
-    /// The other end.
-    pub to: Attachment,
-    /// Its law.
-    pub law: SpringLaw,
-}
-
-/// Force against length.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SpringLaw {
-    /// Tension k (ℓ - ℓ0).
-    Linear {
-        /// k, N/m.
-        stiffness: f64,
-        /// ℓ0, m. None: the initial distance, so that it starts relaxed.
-        rest_length: Option<f64>,
-    },
 }

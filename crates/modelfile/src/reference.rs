@@ -111,6 +111,7 @@ const RESULTS: &str = "## Results in `[output]` and `[target]`\n\n\
     | both | `displacement`, `turning` since the undeformed mechanism (each `.x`, `.y`, `.z`), `compliance.ROW.COLUMN` (rows `x` `y` `z` `rx` `ry` `rz`, columns `fx` `fy` `fz` `mx` `my` `mz`), `stiffness.ROW.COLUMN` (rows `fx` ..., columns `x` ...), `center_of_compliance` (`.x`, `.y`, `.z`) |\n\
     | `joint.NAME` | `coordinate` and `effort` of a joint with one coordinate, each `.x`, `.y`, `.z` of a spherical one; otherwise the coordinate by its name, `angle`, `position`, `x`, `first` ..., and `effort.NAME`; `force`, `moment` (each `.x`, `.y`, `.z`) |\n\
     | `spring.NAME`, `cable.NAME` | `length`, `tension` |\n\
+    | `spring.NAME` | `strain` from its rest length; `stress` of an exponential one |\n\
     | `tubes.NAME` | of the tip: `position`, `rotation`, `tangent` (each `.x`, `.y`, `.z`) |\n\
     | `model` | `energy` |\n\
     | `output.NAME` | in `[target]` and in events only: that output; of a vector `.x`, `.y`, `.z` |\n\n\

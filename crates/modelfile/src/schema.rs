@@ -164,6 +164,7 @@ fn value(shape: &Shape) -> String {
         Shape::NamedOutputs => named(type_of("string")),
         Shape::Points => list(refer("vector"), None, 2),
         Shape::PlanePoints | Shape::Pairs => list(list_of("number", 2), None, 2),
+        Shape::ForceRows => list(list_of("number", 2), None, 2),
         Shape::Along => list(
             object(&[
                 ("type", text("object")),

@@ -208,7 +208,8 @@ fn every_table_arrives_in_the_model() {
     assert!(
         matches!(model.springs[0].to, Attachment { mount: Mount::Beam(point), .. } if point.at == At::Fraction(0.5))
     );
-    assert!(matches!(model.springs[0].law, SpringLaw::Linear { rest_length: None, .. }));
+    assert!(matches!(model.springs[0].law, SpringLaw::Linear { tension_only: false, .. }));
+    assert_eq!((model.springs[0].rest_length, model.springs[0].size), (None, 1.0));
     assert_eq!(model.masses[0].point.at, At::Length(0.0762));
     close(model.loads[0].force.x, -3.0);
     let units: Vec<&str> = model.parameters.iter().map(|parameter| parameter.unit.as_str()).collect();

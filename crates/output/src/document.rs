@@ -10,7 +10,8 @@ use crate::{Named, OutputError};
 use flexura_model::{Model, Tubes};
 use flexura_post::{BeamStress, Evaluation, OutputValue};
 use flexura_solution::{
-    BeamSample, BeamSolution, CableSolution, Solution, Status, TubesSample, TubesSolution, Work,
+    BeamSample, BeamSolution, CableSolution, Solution, SpringSolution, Status, TubesSample, TubesSolution,
+    Work,
 };
 use flexura_spatial::{Pose, UnitQuaternion, Vector3};
 
@@ -78,11 +79,7 @@ pub(crate) fn state_document(
         bodies: bodies(model, solution)?,
         joints: joints(model, solution)?,
         springs: Named::collect(springs, |(spring, result)| {
-            let document = SpringDocument {
-                length: finite(result.length, || format!("springs.{}.length", spring.name))?,
-                tension: finite(result.tension, || format!("springs.{}.tension", spring.name))?,
-            };
-            Ok((spring.name.clone(), document))
+            Ok((spring.name.clone(), spring_document(&format!("springs.{}", spring.name), result)?))
         })?,
         couplings: Named::collect(
             model.couplings.iter().zip(&solution.couplings),
@@ -186,6 +183,20 @@ fn joints(model: &Model, solution: &Solution) -> Result<Named<JointDocument>, Ou
             },
         };
         Ok((joint.name.clone(), document))
+    })
+}
+
+fn spring_document(path: &str, spring: &SpringSolution) -> Result<SpringDocument, OutputError> {
+    let some = |value: Option<f64>, word: &str| {
+        value.map(|value| finite(value, || format!("{path}.{word}"))).transpose()
+    };
+    Ok(SpringDocument {
+        length: finite(spring.length, || format!("{path}.length"))?,
+        tension: finite(spring.tension, || format!("{path}.tension"))?,
+        strain: some(spring.strain, "strain")?,
+        slack: spring.is_slack,
+        stress: some(spring.stress, "stress")?,
+        course: finite_vectors(path, "course", spring.course.iter().map(|point| (*point).into()))?,
     })
 }
 

@@ -96,6 +96,12 @@ pub fn solution_of(document: &Document, model: &Model) -> Result<Solution, ReadE
             ends: [end_point(&solution, &spring.from), end_point(&solution, &spring.to)],
             length: known.map_or(0.0, |spring| spring.length),
             tension: known.map_or(0.0, |spring| spring.tension),
+            strain: known.and_then(|spring| spring.strain),
+            stress: known.and_then(|spring| spring.stress),
+            is_slack: known.is_some_and(|spring| spring.slack),
+            course: known.map_or_else(Vec::new, |spring| {
+                spring.course.iter().map(|point| Vector3::from(*point)).collect()
+            }),
         }
     });
     solution.springs = springs.collect();

@@ -204,12 +204,24 @@ pub struct JointDocument {
 }
 
 /// A spring's state.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SpringDocument {
-    /// Length, m.
+    /// Length along its course, m.
     pub length: f64,
     /// Tension, N.
     pub tension: f64,
+    /// Stretch per rest length; null where that is zero.
+    #[serde(default)]
+    pub strain: Option<f64>,
+    /// Too long to carry anything?
+    #[serde(default)]
+    pub slack: bool,
+    /// Tension per present area, Pa, of a law that knows its area.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stress: Option<f64>,
+    /// Its course, global, m, where it touches what it runs over.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub course: Vec<[f64; 3]>,
 }
 
 /// A coupling's state.

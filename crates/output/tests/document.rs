@@ -289,3 +289,26 @@ fn what_is_no_result_of_this_mechanism_is_refused_with_the_reason() {
     let worded = changed(&|value| value["status"] = json!("fine"));
     assert!(worded.contains("`fine`"), "{worded}");
 }
+
+#[test]
+fn a_spring_tells_its_strain_its_stress_and_its_course_and_is_read_back() {
+    let (model, mut solution) = rich();
+    let ends = solution.springs[0].ends;
+    let spring = &mut solution.springs[0];
+    (spring.strain, spring.stress, spring.is_slack) = (Some(-0.25), Some(3e5), true);
+    spring.course = vec![ends[0], (ends[0] + ends[1]) * 0.4, ends[1]];
+    let (text, value) = written(&model, &solution);
+    let told = &value["springs"]["return"];
+    assert_eq!((told["strain"].as_f64(), told["slack"].as_bool()), (Some(-0.25), Some(true)));
+    assert_eq!(told["course"].as_array().unwrap().len(), 3);
+    let back = solution_of(&read_document(&text).unwrap(), &model).unwrap();
+    let back = &back.springs[0];
+    assert_eq!((back.strain, back.stress, back.is_slack), (Some(-0.25), Some(3e5), true));
+    assert!((back.course[1] - solution.springs[0].course[1]).norm() < 1e-15);
+    // A straight one has no course, and a law without an area no stress.
+    solution.springs[0].course.clear();
+    solution.springs[0].stress = None;
+    let (_, value) = written(&model, &solution);
+    assert!(value["springs"]["return"].get("course").is_none());
+    assert!(value["springs"]["return"].get("stress").is_none());
+}

@@ -124,3 +124,22 @@ fn the_picture_shows_cables_tubes_and_every_kind_of_joint() {
         std::fs::write(std::path::Path::new(&folder).join("rich.svg"), text).unwrap();
     }
 }
+
+#[test]
+fn the_picture_shows_the_course_of_a_spring_that_runs_over_something() {
+    let (model, mut solution) = rich();
+    let points = |text: &str| -> Vec<usize> {
+        text.split("<polyline points=\"")
+            .skip(1)
+            .map(|rest| rest.split('>').next().unwrap_or_default())
+            .filter(|element| element.contains("stroke=\"#666666\""))
+            .map(|element| element.split('"').next().unwrap_or_default().split(' ').count())
+            .collect()
+    };
+    let ends = solution.springs[0].ends;
+    let middle = (ends[0] + ends[1]) * 0.5;
+    let over = middle + flexura_spatial::Vector3::new(0.0, 0.02, 0.03);
+    solution.springs[0].course = vec![ends[0], over, middle + (over - middle) * 0.9, ends[1]];
+    let text = shape_svg(&model, &solution);
+    assert_eq!(points(&text).iter().filter(|count| **count == 4).count(), 3, "{:?}", points(&text));
+}

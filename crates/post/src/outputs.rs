@@ -114,6 +114,9 @@ impl Reader<'_> {
                 let value = result.and_then(|spring| match probe.quantity {
                     Quantity::Length => Some(spring.length),
                     Quantity::Tension => Some(spring.tension),
+                    // Of a spring of rest length zero there is none, which is told as any other number that is not finite.
+                    Quantity::Strain => Some(spring.strain.unwrap_or(f64::NAN)),
+                    Quantity::Stress => spring.stress,
                     _ => None,
                 });
                 value.ok_or_else(|| self.no_such_quantity("a spring"))

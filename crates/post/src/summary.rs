@@ -34,8 +34,8 @@ pub struct Summary {
     pub bodies: Vec<BodySummary>,
     /// Joints in the model's order.
     pub joints: Vec<JointSummary>,
-    /// Springs: name, length (m), tension (N).
-    pub springs: Vec<(String, f64, f64)>,
+    /// Springs: name, length (m), tension (N), strain (none where the rest length is zero).
+    pub springs: Vec<(String, f64, f64, Option<f64>)>,
     /// Couplings: name, effort per factor (of the unit of the coordinates' efforts over that of the factors).
     pub couplings: Vec<(String, f64)>,
     /// Cables: name, length (m), tension (N).
@@ -217,7 +217,7 @@ pub fn summarise(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
             .springs
             .iter()
             .zip(&solution.springs)
-            .map(|(spring, result)| (spring.name.clone(), result.length, result.tension))
+            .map(|(spring, result)| (spring.name.clone(), result.length, result.tension, result.strain))
             .collect(),
         couplings: model
             .couplings

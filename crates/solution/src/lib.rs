@@ -156,14 +156,22 @@ pub struct JointSolution {
 }
 
 /// A spring's state.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct SpringSolution {
     /// Its two ends, global, m.
     pub ends: [Vector3<f64>; 2],
-    /// Length, m.
+    /// Length along its course, m.
     pub length: f64,
     /// Tension, N.
     pub tension: f64,
+    /// Stretch per rest length. None where that is zero.
+    pub strain: Option<f64>,
+    /// Tension per present area, Pa. None where the law knows no area.
+    pub stress: Option<f64>,
+    /// Too long to carry anything?
+    pub is_slack: bool,
+    /// Where it touches what it runs over: its course from end to end, global, m; else empty.
+    pub course: Vec<Vector3<f64>>,
 }
 
 /// A cable's state.

@@ -1,11 +1,10 @@
-//! Joints, couplings and springs between nodes.
+//! Joints and couplings between nodes, and points on nodes.
 
-use super::{Carrier, Gear, JointOrigin, Link, Lowered, NodeJoint, SNUG, contact, length_text};
+use super::{Carrier, Gear, JointOrigin, Lowered, NodeJoint, SNUG, contact, length_text};
 use crate::coordinates::Coordinates;
 use crate::error::ProblemError;
 use flexura_mechanics::joint::Kinematics;
-use flexura_mechanics::spring::LinearSpring;
-use flexura_model::{Attachment, Coupling, Model, Spring, SpringLaw};
+use flexura_model::{Attachment, Coupling, Model};
 use flexura_spatial::Vector3;
 
 pub(super) fn lower_joint(model: &Model, lowered: &mut Lowered, index: usize) -> Result<(), ProblemError> {
@@ -91,24 +90,4 @@ pub(super) fn place(lowered: &Lowered, attachment: &Attachment) -> (Option<usize
 pub(super) fn distance(lowered: &Lowered, ends: &[(Option<usize>, Vector3<f64>); 2]) -> f64 {
     let [a, b] = ends.map(|(node, point)| lowered.initial(node).point(&point));
     (b - a).norm()
-}
-
-pub(super) fn lower_spring(lowered: &mut Lowered, spring: &Spring) -> Result<(), ProblemError> {
-    let scale = lowered.scale;
-    let ends = [place(lowered, &spring.from), place(lowered, &spring.to)];
-    let initial_length = distance(lowered, &ends);
-    let SpringLaw::Linear { stiffness, rest_length } = spring.law;
-    if initial_length < 1e-12 {
-        return Err(ProblemError::new(
-            format!("spring.{}", spring.name),
-            "has length zero: its two ends coincide, so it has no direction",
-            "move `from` or `to`",
-        ));
-    }
-    let law = LinearSpring {
-        stiffness: stiffness * scale.length / scale.force,
-        rest_length: rest_length.map_or(initial_length, |l| l / scale.length),
-    };
-    lowered.springs.push(Link { ends, law, initial_length });
-    Ok(())
 }

@@ -9,6 +9,7 @@ mod attachments;
 mod cables;
 mod contact;
 mod spans;
+mod springs;
 
 use crate::beam::BeamLaw;
 use crate::channel::{Route, TendonChannel};
@@ -16,8 +17,8 @@ use crate::coordinates::Coordinates;
 use crate::error::ProblemError;
 use crate::scale::Scale;
 use flexura_mechanics::load::PointLoad;
-use flexura_mechanics::spring::LinearSpring;
-use flexura_model::{BeamId, BeamPoint, LoadFrame, LoadTarget, Model, Mount, SpringLaw};
+use flexura_mechanics::spring::{Obstacle, TensionLaw};
+use flexura_model::{BeamId, BeamPoint, LoadFrame, LoadTarget, Model, Mount};
 use flexura_spatial::{Pose, Twist, Vector3, Wrench};
 
 /// What a node stands for.
@@ -104,8 +105,19 @@ pub(crate) struct NodeJoint {
 #[derive(Clone, Debug)]
 pub(crate) struct Link {
     pub ends: [(Option<usize>, Vector3<f64>); 2],
-    pub law: LinearSpring,
-    pub initial_length: f64,
+    pub law: TensionLaw,
+    /// With which it is relaxed initially, and what it is to be.
+    pub rest_length: [f64; 2],
+    /// Is it longer than the way between its ends initially?
+    pub is_loose: bool,
+    pub wrap: Option<Wrapping>,
+}
+
+/// What a spring runs over.
+#[derive(Clone, Debug)]
+pub(crate) struct Wrapping {
+    pub carrier: Carrier,
+    pub obstacle: Obstacle,
 }
 
 /// A linear relation between joint coordinates, Σ factor q = offset, nondimensional; the joints of the model come
@@ -227,7 +239,7 @@ pub(crate) fn lower(
         attachments::lower_coupling(model, &mut lowered, coupling)?;
     }
     for spring in &model.springs {
-        attachments::lower_spring(&mut lowered, spring)?;
+        springs::lower_spring(&mut lowered, spring)?;
     }
     for cable in &model.cables {
         cables::lower_cable(&mut lowered, cable)?;
@@ -261,10 +273,7 @@ fn scale_of(model: &Model, beams: &[BeamLaw]) -> Result<Scale, ProblemError> {
     let spread = model.bodies.iter().map(|b| (b.pose.position - middle).norm()).fold(0.0, f64::max);
     let length = if spread > 0.0 { spread } else { 1.0 };
     let mut force = model.loads.iter().map(|l| l.force.norm()).fold(0.0, f64::max);
-    for spring in &model.springs {
-        let SpringLaw::Linear { stiffness, .. } = spring.law;
-        force = force.max(stiffness * length);
-    }
+    force = force.max(springs::largest_force(model, length));
     Ok(Scale { length, force: if force > 0.0 { force } else { 1.0 } })
 }
 

@@ -103,6 +103,7 @@ pub(super) fn place_hubs(model: &Model, lowered: &mut Lowered, probes: &[BeamPoi
         for spring in &model.springs {
             mount(&spring.from.mount);
             mount(&spring.to.mount);
+            spring.wrap.iter().for_each(|wrap| mount(&wrap.frame.mount));
         }
         for cable in &model.cables {
             cables::mounts(cable, &lengths).iter().for_each(&mut mount);

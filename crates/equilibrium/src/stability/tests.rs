@@ -51,10 +51,13 @@ fn what_has_an_energy_is_decided() {
 #[test]
 fn the_count_does_not_depend_on_how_beams_are_cut() {
     let mut seen = Vec::new();
+    let mut model = conservative();
+    // So far from rest, ends lie inside what their springs run over.
+    model.springs.iter_mut().for_each(|spring| spring.wrap = None);
     for segments in [None, Some(2), Some(5)] {
         let mut own = Vec::new();
         for size in [0.1, 0.5, 1.0, 2.0, 4.0, 8.0] {
-            let mut problem = Equilibrium::new(&conservative()).unwrap();
+            let mut problem = Equilibrium::new(&model).unwrap();
             disturbed(&mut problem, size);
             // Cut after it was disturbed: the segments' own states lie on the same curve then.
             problem.residual().unwrap();

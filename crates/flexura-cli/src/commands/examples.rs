@@ -29,6 +29,8 @@ const MODELS: &[(&str, &str)] = &bundled![
     "sensor_clamp",
     "tendon_robot",
     "concentric_tubes",
+    "condyle_tendon",
+    "wing_ligaments",
     "bistable_beam",
     "lee_frame",
     "shallow_arch",

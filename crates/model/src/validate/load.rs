@@ -1,12 +1,12 @@
-//! Springs, cables, masses and loads.
+//! Cables, masses and loads.
 
 use super::Issues;
 use super::beam::known_length;
 use super::section::{check_table, worst};
-use crate::{Attachment, CableLaw, Guide, LoadTarget, Model, Mount, Profile, SpringLaw};
+use crate::{Attachment, CableLaw, Guide, LoadTarget, Model, Mount, Profile};
 
 /// Where the point of an attachment is written.
-fn point_path(attachment: &Attachment, path: &str) -> String {
+pub(super) fn point_path(attachment: &Attachment, path: &str) -> String {
     match attachment.mount {
         Mount::Beam(_) => format!("{path}.offset"),
         _ => format!("{path}.at"),
@@ -73,21 +73,6 @@ impl Model {
     }
 
     pub(super) fn check_loads(&self, issues: &mut Issues) {
-        for spring in &self.springs {
-            let path = format!("spring.{}", spring.name);
-            for (attachment, word) in [(&spring.from, "from"), (&spring.to, "to")] {
-                self.check_mount(attachment.mount, &format!("{path}.{word}"), issues);
-                issues.finite_vector(point_path(attachment, &format!("{path}.{word}")), &attachment.point);
-            }
-            if spring.from == spring.to {
-                issues.add(format!("{path}.to"), "a spring must connect two different points");
-            }
-            let SpringLaw::Linear { stiffness, rest_length } = &spring.law;
-            issues.not_negative(format!("{path}.stiffness"), *stiffness);
-            if let Some(rest_length) = rest_length {
-                issues.not_negative(format!("{path}.rest_length"), *rest_length);
-            }
-        }
         for mass in &self.masses {
             let path = format!("mass.{}", mass.name);
             self.check_at(&mass.point, &format!("{path}.at"), issues);

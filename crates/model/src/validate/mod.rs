@@ -8,6 +8,7 @@ mod joint;
 mod load;
 mod result;
 mod section;
+mod spring;
 mod study;
 mod tubes;
 
@@ -140,6 +141,7 @@ impl Model {
             self.check_joint(joint, &mut issues);
         }
         self.check_couplings(&mut issues);
+        self.check_springs(&mut issues);
         self.check_loads(&mut issues);
         self.check_cables(&mut issues);
         self.check_tubes(&mut issues);

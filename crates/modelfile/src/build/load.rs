@@ -1,23 +1,10 @@
-//! Springs, lumped masses and loads.
+//! Lumped masses and loads.
 
-use super::place::{On, attachment, beam_point, either, point};
+use super::place::{On, beam_point, either, point};
 use crate::context::{Needed, Read, Reported};
 use crate::reader::Reader;
-use flexura_model::{BeamId, BeamPoint, BodyId, Load, LoadFrame, LoadTarget, PointMass, Spring, SpringLaw};
+use flexura_model::{BeamId, BeamPoint, BodyId, Load, LoadFrame, LoadTarget, PointMass};
 use flexura_spatial::Vector3;
-
-pub(super) fn spring(reader: &Reader<'_, '_>, name: String) -> Read<Spring> {
-    let from = reader.table("from").needed().and_then(|table| attachment(&table));
-    let to = reader.table("to").needed().and_then(|table| attachment(&table));
-    let stiffness = reader.number("stiffness").needed();
-    let rest_length = reader.number("rest_length");
-    Ok(Spring {
-        name,
-        from: from?,
-        to: to?,
-        law: SpringLaw::Linear { stiffness: stiffness?, rest_length: rest_length? },
-    })
-}
 
 pub(super) fn mass(reader: &Reader<'_, '_>, name: String) -> Read<PointMass> {
     let beam = reader.name("beam").needed();

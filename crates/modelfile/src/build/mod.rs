@@ -11,6 +11,7 @@ mod load;
 mod material;
 mod place;
 mod result;
+mod spring;
 mod study;
 mod tubes;
 mod unknown;
@@ -58,7 +59,7 @@ pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<M
     model.joints = each(context, "joint", joint::joint);
     let couplings = each(context, "coupling", |reader, name| coupling::coupling(reader, name, &model.joints));
     model.couplings = couplings;
-    model.springs = each(context, "spring", load::spring);
+    model.springs = each(context, "spring", spring::spring);
     model.cables = each(context, "cable", cable::cable);
     model.tubes = each(context, "tubes", tubes::tubes);
     model.masses = each(context, "mass", load::mass);

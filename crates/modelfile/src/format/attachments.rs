@@ -1,8 +1,8 @@
-//! Tables of bodies, springs, masses and loads.
+//! Tables of bodies, masses and loads.
 
-use super::joints::{BEAM_OR_BODY, BODY_OR_BEAM, OFFSET, POINT_OR_STATION, ROTATION};
-use super::tables::{key, table, variant};
-use super::{Named, Need, Shape, Table, Variants};
+use super::joints::ROTATION;
+use super::tables::{key, table};
+use super::{Named, Need, Shape, Table};
 use Need::{Default, Optional, Required};
 use flexura_expression::Dimension as D;
 
@@ -40,42 +40,6 @@ pub(crate) static BODY: Table = table(
         ),
     ],
 );
-
-static PLACE: Table =
-    table("A point of a body or of a beam.", &[BODY_OR_BEAM, BEAM_OR_BODY, POINT_OR_STATION, OFFSET]);
-
-pub(crate) static SPRING: Table = Table {
-    doc: "A spring between two points.",
-    keys: &[
-        key(
-            "from",
-            Shape::Table(&PLACE),
-            Required,
-            "{ body = \"ground\", at = [0, 0, \"50 mm\"] }",
-            "One end.",
-        ),
-        key("to", Shape::Table(&PLACE), Required, "{ beam = \"link\", at = 0.5 }", "The other end."),
-    ],
-    variants: Some(Variants {
-        by: "law",
-        by_doc: "Tension against length.",
-        default: Some("linear"),
-        list: &[variant(
-            "linear",
-            "Tension in proportion to the stretch.",
-            &[
-                key("stiffness", Shape::Number(D::STIFFNESS), Required, "\"200 N/m\"", "Stiffness."),
-                key(
-                    "rest_length",
-                    Shape::Number(D::LENGTH),
-                    Default("the initial distance"),
-                    "\"40 mm\"",
-                    "Length at which it is relaxed.",
-                ),
-            ],
-        )],
-    }),
-};
 
 pub(crate) static MASS: Table = table(
     "A lumped mass on a beam.",

@@ -24,7 +24,7 @@ pub(super) const OFFSET: Key = key(
     "[0, \"2 mm\", 0]",
     "On a beam: the point, in the section's axes e1, e2, e3.",
 );
-const ROTATION_KEY: Key = key(
+pub(super) const ROTATION_KEY: Key = key(
     "rotation",
     Shape::Table(&ROTATION),
     Default("none"),

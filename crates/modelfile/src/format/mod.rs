@@ -8,6 +8,7 @@ mod contacts;
 mod joints;
 mod relations;
 mod sections;
+mod springs;
 mod studies;
 mod tables;
 mod tubes;
@@ -178,6 +179,8 @@ pub(crate) enum Shape {
     PlanePoints,
     /// Rows of two numbers whose dimensions depend on something else.
     Pairs,
+    /// Rows of elongation and force.
+    ForceRows,
     /// Rows of dimensions along the beam, keys as in the same table.
     Along,
     /// The number 1.
@@ -261,6 +264,7 @@ impl Shape {
             Shape::Points => "a list of points, each three numbers (m)".into(),
             Shape::PlanePoints => "a list of points, each two numbers (m)".into(),
             Shape::Pairs => "a list of rows, each two numbers".into(),
+            Shape::ForceRows => "a list of rows, each an elongation (m) and a force (N)".into(),
             Shape::Along => "a list of rows, each `at` and the dimensions there".into(),
             Shape::Version => "the number 1".into(),
         }

@@ -1,9 +1,10 @@
 //! Tables of what a mechanism is made of: file, materials, sections, beams, curves.
 
-use super::attachments::{BODY, LOAD, MASS, SPRING};
+use super::attachments::{BODY, LOAD, MASS};
 use super::joints::{END, JOINT};
 use super::relations::{CABLE, COUPLING, UNKNOWN};
 use super::sections::SECTION;
+use super::springs::SPRING;
 use super::studies::STUDY;
 use super::tubes::TUBES;
 use super::{Key, Named, Need, Shape, Table, Variant, Variants};

@@ -5,6 +5,7 @@ use super::layout::Panel;
 use super::scene::{BodyMark, CableMark, JointMark, LoadMark, Support};
 use super::{CABLE, FAINT, INK, LOAD};
 use flexura_model::JointKind;
+use flexura_spatial::Vector3;
 
 /// Arrows of loads have this length in the view that shows them unforeshortened, px.
 const ARROW: f64 = 36.0;
@@ -205,8 +206,16 @@ pub fn diamond(canvas: &mut Canvas, at: [f64; 2], is_filled: bool) {
     }
 }
 
-/// A spring as a zigzag line.
-pub fn spring(canvas: &mut Canvas, from: [f64; 2], to: [f64; 2]) {
+/// A spring as a zigzag line; one that runs over something as its course.
+pub fn spring(canvas: &mut Canvas, panel: &Panel, course: &[Vector3<f64>]) {
+    let [from, to] = match course {
+        [from, to] => [panel.point(from), panel.point(to)],
+        _ => {
+            let style = Style::line("#666666", 1.2);
+            canvas.polyline(course.iter().map(|point| panel.point(point)), &style);
+            return;
+        }
+    };
     let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
     let length = dx.hypot(dy);
     let style = Style::line("#666666", 1.2);

@@ -107,7 +107,7 @@ fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
         canvas.polyline(outline.deformed.iter().map(|point| panel.point(point)), &style);
     }
     for spring in &scene.springs {
-        marks::spring(canvas, panel.point(&spring[0]), panel.point(&spring[1]));
+        marks::spring(canvas, panel, spring);
     }
     let arm_style = Style::line("#555555", 2.6);
     for body in &scene.bodies {

@@ -90,7 +90,8 @@ pub struct Scene {
     pub supports: Vec<Support>,
     pub joints: Vec<JointMark>,
     pub outlines: Vec<Outline>,
-    pub springs: Vec<[Vector3<f64>; 2]>,
+    /// From end to end: two points, or more where it runs over something.
+    pub springs: Vec<Vec<Vector3<f64>>>,
     pub cables: Vec<CableMark>,
     pub loads: Vec<LoadMark>,
 }
@@ -122,6 +123,9 @@ impl Scene {
             for end in [&spring.from, &spring.to] {
                 add_arm(model, solution, &mut bodies, end.mount, &Pose::translation(end.point));
             }
+            if let Some(wrap) = &spring.wrap {
+                add_arm(model, solution, &mut bodies, wrap.frame.mount, &wrap.frame.pose);
+            }
         }
         for tubes in &model.tubes {
             add_arm(model, solution, &mut bodies, tubes.base.mount, &tubes.base.pose);
@@ -137,7 +141,14 @@ impl Scene {
             supports,
             joints,
             outlines: outlines(model, solution),
-            springs: solution.springs.iter().map(|spring| spring.ends).collect(),
+            springs: solution
+                .springs
+                .iter()
+                .map(|spring| match spring.course.len() {
+                    0 => spring.ends.to_vec(),
+                    _ => spring.course.clone(),
+                })
+                .collect(),
             cables: cables(model, solution),
             loads: loads(model, solution),
         }

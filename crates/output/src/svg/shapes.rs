@@ -225,7 +225,7 @@ fn draw_state(
 ) {
     let style = |width: f64| Style::line(colour.to_owned(), width).dashed(dashes);
     for spring in &scene.springs {
-        canvas.line(panel.point(&spring[0]), panel.point(&spring[1]), &style(0.4 * width));
+        canvas.polyline(spring.iter().map(|point| panel.point(point)), &style(0.4 * width));
     }
     for cable in &scene.cables {
         canvas.polyline(cable.course.iter().map(|point| panel.point(point)), &style(0.5 * width));

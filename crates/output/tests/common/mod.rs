@@ -100,12 +100,12 @@ pub fn model() -> Model {
             child_pose: None,
             law: JointLaw::free(JointKind::Revolute, Vector3::y()),
         }],
-        springs: vec![Spring {
-            name: "return".into(),
-            from: Attachment { mount: Mount::Ground, point: Vector3::new(0.0, 0.0, -0.15) },
-            to: Attachment { mount: Mount::Body(BodyId(0)), point: Vector3::zeros() },
-            law: SpringLaw::Linear { stiffness: 1.0, rest_length: None },
-        }],
+        springs: vec![Spring::linear(
+            "return",
+            Attachment { mount: Mount::Ground, point: Vector3::new(0.0, 0.0, -0.15) },
+            Attachment { mount: Mount::Body(BodyId(0)), point: Vector3::zeros() },
+            1.0,
+        )],
         loads: vec![Load {
             name: "bend".into(),
             target: LoadTarget::Body { body: BodyId(0), point: Vector3::zeros() },
@@ -177,6 +177,7 @@ pub fn solution() -> Solution {
             ends: [spring_start, tip.position],
             length: (tip.position - spring_start).norm(),
             tension: 0.0,
+            ..SpringSolution::default()
         }],
         energy: 0.5 * bending_stiffness() * CURVATURE * CURVATURE * LENGTH,
         stable: None,

@@ -15,6 +15,7 @@ mod frame;
 mod helix_wrench;
 mod joints;
 mod lee_frame;
+mod ligaments;
 mod pushed_strip;
 mod robot;
 mod roll_up;
@@ -53,6 +54,7 @@ pub fn cases() -> Vec<Case> {
         &flexure_order::CASES,
         &flexures::CASES,
         &joints::CASES,
+        &ligaments::CASES,
         &tendons::CASES,
         &tubes::CASES,
         &columns::CASES,

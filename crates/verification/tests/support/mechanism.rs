@@ -145,19 +145,11 @@ fn add_joints_and_loads(model: &mut Model, along: Vector3<f64>, across: Vector3<
         child_pose: None,
         law: turn,
     });
-    let linear = |stiffness: f64| SpringLaw::Linear { stiffness, rest_length: None };
-    model.springs.push(Spring {
-        name: "stay".to_string(),
-        from: Attachment { mount: lever, point: Vector3::new(0.2, 0.0, 0.1) },
-        to: Attachment { mount: Mount::Ground, point: Vector3::new(0.5, 1.0, 0.5) },
-        law: linear(0.8),
-    });
-    model.springs.push(Spring {
-        name: "guy".to_string(),
-        from: Attachment::on_beam(on(WHIP, 0.4)),
-        to: Attachment { mount: Mount::Ground, point: Vector3::new(-0.5, 0.2, 1.0) },
-        law: linear(0.5),
-    });
+    let ground = |x, y, z| Attachment { mount: Mount::Ground, point: Vector3::new(x, y, z) };
+    let on_lever = Attachment { mount: lever, point: Vector3::new(0.2, 0.0, 0.1) };
+    model.springs.push(Spring::linear("stay", on_lever, ground(0.5, 1.0, 0.5), 0.8));
+    let on_whip = Attachment::on_beam(on(WHIP, 0.4));
+    model.springs.push(Spring::linear("guy", on_whip, ground(-0.5, 0.2, 1.0), 0.5));
     model.masses.push(PointMass { name: "weight".to_string(), point: on(ARM, 0.3), mass: 0.15 });
     let mut load = |name: &str, target, force, moment, frame| {
         model.loads.push(Load { name: name.to_string(), target, force, moment, frame });

@@ -123,9 +123,9 @@ pub fn in_units(model: &Model, a: f64, b: f64) -> Model {
         }
     }
     for spring in &mut new.springs {
-        let SpringLaw::Linear { stiffness, rest_length } = &mut spring.law;
+        let SpringLaw::Linear { stiffness, .. } = &mut spring.law else { panic!("not needed here") };
         *stiffness *= b / a;
-        rest_length.iter_mut().for_each(|length| *length *= a);
+        spring.rest_length.iter_mut().for_each(|length| *length *= a);
         for end in [&mut spring.from, &mut spring.to] {
             if let Attachment { mount: Mount::Ground | Mount::Body(_), point } = end {
                 *point *= a;

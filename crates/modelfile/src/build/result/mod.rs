@@ -18,7 +18,7 @@ use flexura_expression::{Binding, Expression, ExpressionError, Formula, Kind, Re
 use flexura_model::{
     At, BeamId, BodyId, CableId, JointId, Model, Output, Probe, ProbeTarget, Quantity, SpringId, TubesId,
 };
-use readable::{of_beam, of_body, of_joint, of_line, of_model, of_tubes};
+use readable::{of_beam, of_body, of_joint, of_line, of_model, of_spring, of_tubes};
 use std::cell::Cell;
 use walk::Meaning;
 
@@ -217,7 +217,14 @@ impl Results<'_, '_> {
                 };
                 walk.quantity(ProbeTarget::Joint(JointId(position)), &of_joint(&joint.law), example)
             }
-            Named::Spring => walk.quantity(ProbeTarget::Spring(SpringId(position)), &of_line(), example),
+            Named::Spring => {
+                let Some(spring) = self.model.springs.get(position).filter(|spring| spring.name == name)
+                else {
+                    silent.set(true);
+                    return Err(ExpressionError::new(String::new(), span));
+                };
+                walk.quantity(ProbeTarget::Spring(SpringId(position)), &of_spring(&spring.law), example)
+            }
             Named::Cable => walk.quantity(ProbeTarget::Cable(CableId(position)), &of_line(), example),
             Named::Tubes => walk.quantity(ProbeTarget::Tubes(TubesId(position)), &of_tubes(), example),
             _ => walk.quantity(ProbeTarget::Body(BodyId(position)), &of_body(), example),

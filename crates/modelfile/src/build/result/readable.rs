@@ -3,6 +3,7 @@
 use flexura_expression::Dimension;
 use flexura_model::{
     Boundary, BoundaryCurve, Contact, CoordinateKind, JointKind, JointLaw, Quantity, RollingCoordinate,
+    SpringLaw,
 };
 
 /// A name behind a beam, a body and so on.
@@ -182,6 +183,16 @@ pub(super) fn of_joint(law: &JointLaw) -> Vec<Readable> {
     list.push(vector("moment", Quantity::Moment, Dimension::MOMENT));
     if let Some(contact) = &law.contact {
         list.push(Readable { name: "contact", part: Part::Group(of_contact(law, contact)) });
+    }
+    list
+}
+
+/// Of a spring; only the exponential law knows its area.
+pub(super) fn of_spring(law: &SpringLaw) -> Vec<Readable> {
+    let mut list = of_line();
+    list.push(number("strain", Quantity::Strain, Dimension::NUMBER));
+    if let SpringLaw::Exponential { .. } = law {
+        list.push(number("stress", Quantity::Stress, Dimension::PRESSURE));
     }
     list
 }
