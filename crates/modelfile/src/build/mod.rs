@@ -8,6 +8,7 @@ mod curve;
 mod joint;
 mod load;
 mod material;
+mod motion;
 mod place;
 mod result;
 mod study;

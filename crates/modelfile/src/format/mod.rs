@@ -5,6 +5,7 @@
 
 mod attachments;
 mod joints;
+mod motion;
 mod relations;
 mod sections;
 mod studies;
@@ -165,6 +166,12 @@ pub(crate) enum Shape {
     AnyNumber,
     /// Two such numbers.
     AnyRange,
+    /// Such a number per second.
+    AnyRate,
+    /// An expression of the time whose value is such a number.
+    AnyFunction,
+    /// Rows of a time and such a number.
+    Knots,
     /// Two expressions of joint coordinates with an equals sign between them.
     Equation,
     /// Three lengths, or two lengths or expressions of s.
@@ -248,6 +255,9 @@ impl Shape {
             Shape::Texts => "a text, or a list of texts".into(),
             Shape::AnyNumber => "a number of the parameter's dimension".into(),
             Shape::AnyRange => "two numbers of the parameter's dimension".into(),
+            Shape::AnyRate => "a number of the parameter's dimension per second".into(),
+            Shape::AnyFunction => "an expression of t of the parameter's dimension".into(),
+            Shape::Knots => "a list of knots, each a time and a number of the parameter's dimension".into(),
             Shape::Equation => "an equation between joint coordinates".into(),
             Shape::Offset => "three lengths, or two lengths or expressions of s".into(),
             Shape::Points => "a list of points, each three numbers (m)".into(),
