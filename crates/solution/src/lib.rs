@@ -3,9 +3,11 @@
 //! Lists run parallel to the model's lists: `beams[i]` belongs to `model.beams[i]`. SI units, global axes
 //! unless said otherwise. `F` and `M` act, by the part beyond s, on the part before s.
 
+mod motion;
 mod trace;
 mod words;
 
+pub use motion::{BodyMotion, InverseDynamics, Instant, JointMotion, MotionWork};
 pub use trace::{
     Branch, BranchEnd, BranchOrigin, Buckling, BucklingMode, CriticalCurve, Crossing, Direction, PointKind,
     Trace, TracePoint, TraceWork,

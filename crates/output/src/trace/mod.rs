@@ -6,6 +6,7 @@ mod wire;
 
 pub use document::{buckling_document, trace_document};
 pub use table::{critical_csv, modes_csv, path_csv};
+pub(crate) use table::{cell, headed, line, output_headings};
 pub use wire::{
     BranchDocument, BucklingDocument, CriticalDocument, ModeDocument, MotionDocument, MotionsDocument,
     PointDocument, ShapeDocument, TraceDocument, TraceWorkDocument,
