@@ -41,7 +41,7 @@ const fn symmetric(middle: f64, [a, b, c, d]: [f64; 4]) -> [f64; 9] {
 /// Motion between two places of a difference, in units of length and radians: truncation and round-off balance near it.
 const SHIFT: f64 = 0.04;
 /// Relative error at which a difference is good enough, and the most tries to get there.
-const GOOD: f64 = 1e-12;
+const GOOD: f64 = 2e-11;
 const TRIES: usize = 8;
 
 /// A correction of this size is round-off.
@@ -216,14 +216,16 @@ impl<'a> Walker<'a> {
             return Err(singular);
         }
         self.prepared.problem.keep_tangent();
-        let mut best: Option<Rates> = None;
+        let mut best: Option<(f64, Rates)> = None;
         let mut refused = None;
+        let mut fitted = false;
+        let mut width = self.width;
         for _ in 0..TRIES {
-            let rates = match self.rates_of_width(&kept) {
+            let rates = match self.rates_of_width(&kept, width) {
                 Ok(rates) => rates,
                 // Beside the end of what makes sense there may be no model.
                 Err(Halt::Model(error)) => {
-                    self.width *= 0.25;
+                    width *= 0.25;
                     refused = Some(error);
                     continue;
                 }
@@ -231,27 +233,35 @@ impl<'a> Walker<'a> {
             };
             let motion = self.motion(&rates);
             let fitting = if motion > 0.0 { (SHIFT / motion).min(self.widest) } else { self.widest };
-            let (width, error) = (self.width, rates.error);
-            if best.as_ref().is_none_or(|best| error < best.error) {
-                best = Some(rates);
-            } else if width <= fitting {
-                break;
-            }
-            if error <= GOOD && width > 0.5 * fitting {
+            let (error, before) = (rates.error, best.as_ref().map(|(_, best)| best.error));
+            if before.is_none_or(|before| error < before) {
+                best = Some((width, rates));
+            } else if fitted {
                 break;
             }
             // First to where the motion is of the right size, then to where it is smooth.
-            self.width = if width > 1.5 * fitting || width < 0.5 * fitting && error <= GOOD {
-                fitting
+            if !fitted && refused.is_none() && !(0.5 * fitting..=1.5 * fitting).contains(&width) {
+                width = fitting;
+                fitted = true;
             } else if error > GOOD {
-                0.5 * width
+                width *= 0.5;
+                fitted = true;
             } else {
                 break;
-            };
+            }
         }
         self.prepared.problem.restore(&kept);
         match (best, refused) {
-            (Some(best), _) => Ok(best),
+            (Some((width, best)), _) => {
+                // The next one may be smoother.
+                self.width = 2.0 * width;
+                let motion = self.motion(&best);
+                if motion > 0.0 {
+                    self.width = self.width.min(SHIFT / motion);
+                }
+                self.width = self.width.min(self.widest);
+                Ok(best)
+            }
             (None, Some(error)) => Err(Halt::Model(error)),
             (None, None) => Err(singular),
         }
@@ -263,8 +273,8 @@ impl<'a> Walker<'a> {
         first.max(second.sqrt())
     }
 
-    fn rates_of_width(&mut self, kept: &[f64]) -> Result<Rates, Halt> {
-        let (value, width) = (self.value, self.width);
+    fn rates_of_width(&mut self, kept: &[f64], width: f64) -> Result<Rates, Halt> {
+        let value = self.value;
         let mut laws = Vec::with_capacity(2 * PLACES);
         for place in places() {
             laws.push(Some(self.law(value + place * width)?));
