@@ -112,6 +112,7 @@ impl Equilibrium {
             stable: None,
             unstable_directions: None,
             stability_reason: Some("stability was not asked for".to_string()),
+            rates: None,
         }
     }
 

@@ -43,6 +43,7 @@ named! {
     TIME = (0, 0, 1, 0, 0), "a time", "s";
     FREQUENCY = (0, 0, -1, 0, 0), "a frequency", "1/s";
     ANGULAR_VELOCITY = (0, 0, -1, 0, 1), "an angular velocity", "rad/s";
+    ANGULAR_ACCELERATION = (0, 0, -2, 0, 1), "an angular acceleration", "rad/s^2";
     VELOCITY = (1, 0, -1, 0, 0), "a velocity", "m/s";
     ACCELERATION = (1, 0, -2, 0, 0), "an acceleration", "m/s^2";
     FORCE = (1, 1, -2, 0, 0), "a force", "N";

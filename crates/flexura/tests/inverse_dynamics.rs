@@ -152,7 +152,7 @@ samples = 31
         assert_close_vec(&shaft.wrench.force, &force, 1e-9, "force");
         assert_close_vec(&shaft.wrench.moment, &moment, 1e-9, "moment");
         assert_close(shaft.efforts[0], moment.z, 1e-9, "effort");
-        let body = &instant.bodies[0];
+        let body = &instant.bodies()[0];
         assert_close_vec(&body.velocity.angular, &omega, 1e-11, "angular velocity");
         assert_close_vec(&body.acceleration.angular, &alpha, 1e-9, "angular acceleration");
         assert_close_vec(&body.center_acceleration, &shift, 1e-9, "acceleration of the centre");
@@ -204,6 +204,9 @@ axis = [0, 0, 1]
 stiffness = "hold"
 [output]
 torque = "joint.a.effort"
+power = "joint.a.effort * joint.a.velocity"
+speed = "body.coupler.velocity"
+hub = "body.rocker.angular_acceleration.z - joint.d.acceleration"
 [study.turn]
 kind = "inverse_dynamics"
 parameter = "crank"
@@ -231,11 +234,11 @@ fn a_four_bar_moves_as_its_vector_loop() {
             let [coupler, rocker] = bars().moved([instant.value, instant.rate, instant.acceleration]);
             let scale = 1.0 + instant.rate * instant.rate;
             for (body, [_, rate, acceleration]) in [(1, coupler), (2, rocker)] {
-                let motion = &instant.bodies[body];
+                let motion = &instant.bodies()[body];
                 assert_close(motion.velocity.angular.z, rate, 1e-11 * scale, "rate");
                 assert_close(motion.acceleration.angular.z, acceleration, 2e-10 * scale, "acceleration");
             }
-            let d = &instant.joints[3];
+            let d = &instant.joints()[3];
             assert_close(d.velocities[0], rocker[1], 1e-11 * scale, "velocity of the joint");
             assert_close(d.accelerations[0], rocker[2], 2e-10 * scale, "acceleration of the joint");
             let angle = instant.state.joints[3].coordinates[0] + FRAC_PI_2 - rocker[0];
@@ -367,8 +370,44 @@ fn a_mechanism_without_masses_has_velocities_and_no_forces() {
     let run = moved(&text, &[], "turn");
     for instant in &run.motion.instants {
         let [_, rocker] = bars().moved([instant.value, instant.rate, 0.0]);
-        assert_close(instant.joints[3].velocities[0], rocker[1], 1e-10, "velocity");
+        assert_close(instant.joints()[3].velocities[0], rocker[1], 1e-10, "velocity");
         assert_close(instant.state.joints[0].efforts[0], 0.0, 1e-14, "effort");
         assert_close(instant.kinetic_energy, 0.0, 0.0, "energy");
     }
+}
+
+/// Velocities and accelerations in formulas, and in the table and the document.
+#[test]
+fn outputs_may_ask_for_velocities() {
+    let run = moved(FOUR_BAR, &[], "swing");
+    let (power, hub) = (run.numbers("power").unwrap(), run.numbers("hub").unwrap());
+    let speed = run.output("speed").unwrap();
+    for (t, instant) in run.motion.instants.iter().enumerate() {
+        assert_close(power[t], instant.drive_power, 1e-12, "power");
+        assert_close(hub[t], 0.0, 1e-8, "the rocker turns as its joint does");
+        let tip = 0.04 * instant.rate;
+        let expected = Vector3::new(-tip * instant.value.sin(), tip * instant.value.cos(), 0.0);
+        assert_close_vec(&Vector3::from_column_slice(&speed[t]), &expected, 1e-12, "the crank's tip");
+    }
+    let table = flexura::output::motion_csv(&run.view()).unwrap();
+    assert_eq!(table.lines().count(), 202);
+    assert!(table.lines().next().unwrap().contains("speed.x [m/s]"), "{table}");
+    let document = flexura::output::to_json(&run.document().unwrap()).unwrap();
+    for words in ["\"study\": \"inverse_dynamics\"", "\"times\": [0.0, 0.01,", "\"angular_velocity\"", "\"drive_power\""] {
+        assert!(document.contains(words), "{words}");
+    }
+    let picture = flexura::output::motion_svg(&run.view());
+    assert!(picture.contains("rate of crank") && !picture.contains("NaN"), "{picture}");
+}
+
+/// In an equilibrium nothing has a velocity: the output is left out, and it is said why.
+#[test]
+fn a_velocity_has_no_value_where_nothing_moves() {
+    let file = flexura::modelfile::Document::parse(FOUR_BAR, "model.toml").unwrap();
+    let model = file.model(&[]).unwrap();
+    let solution = flexura::solve(&model, &flexura::Options::default(), &mut |_| {}).unwrap();
+    let (evaluation, without) = flexura::post::evaluate_each(&model, &solution);
+    assert!(evaluation.outputs.iter().all(|output| output.name == "torque"));
+    assert_eq!(without.len(), 3);
+    assert!(without[0].to_string().contains("only a study of the kind `inverse_dynamics` knows"), "{}", without[0]);
 }

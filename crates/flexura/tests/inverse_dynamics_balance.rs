@@ -28,7 +28,7 @@ fn check_balance(run: &Moved, tolerance: f64) {
         let here = &instants[middle];
         let rate = slope(step, |i| instants[i].kinetic_energy + instants[i].state.energy, middle);
         assert_close(here.drive_power + here.gravity_power, rate, tolerance * power, "power");
-        for (b, body) in here.bodies.iter().enumerate() {
+        for (b, body) in here.bodies().iter().enumerate() {
             let vector = |pick: &dyn Fn(usize) -> Vector3<f64>| {
                 Vector3::from_fn(|k, _| slope(step, |i| pick(i)[k], middle))
             };
@@ -36,8 +36,8 @@ fn check_balance(run: &Moved, tolerance: f64) {
             // The rotation vector from here differentiates to the angular velocity.
             let turned = here.state.bodies[b].rotation.inverse();
             let angular = vector(&|i| log(&(instants[i].state.bodies[b].rotation * turned)));
-            let acceleration = vector(&|i| instants[i].bodies[b].velocity.linear);
-            let angular_acceleration = vector(&|i| instants[i].bodies[b].velocity.angular);
+            let acceleration = vector(&|i| instants[i].bodies()[b].velocity.linear);
+            let angular_acceleration = vector(&|i| instants[i].bodies()[b].velocity.angular);
             let fast = 1.0 + angular.norm() + velocity.norm();
             assert_close_vec(&body.velocity.linear, &velocity, tolerance * fast, "velocity");
             assert_close_vec(&body.velocity.angular, &angular, tolerance * fast, "angular velocity");
@@ -50,7 +50,7 @@ fn check_balance(run: &Moved, tolerance: f64) {
             );
             largest = largest.max(angular.norm());
         }
-        for (j, joint) in here.joints.iter().enumerate() {
+        for (j, joint) in here.joints().iter().enumerate() {
             for (k, velocity) in joint.velocities.iter().enumerate() {
                 let at = |i: usize| instants[i].state.joints[j].coordinates[k];
                 // A rotation vector turns over at half a turn.
@@ -59,7 +59,7 @@ fn check_balance(run: &Moved, tolerance: f64) {
                 }
                 let rate = slope(step, at, middle);
                 assert_close(*velocity, rate, tolerance * (1.0 + rate.abs()), "velocity of a coordinate");
-                let change = slope(step, |i| instants[i].joints[j].velocities[k], middle);
+                let change = slope(step, |i| instants[i].joints()[j].velocities[k], middle);
                 assert_close(joint.accelerations[k], change, tolerance * (1.0 + change.abs()), "its acceleration");
             }
         }
@@ -105,7 +105,7 @@ fn a_screw_balances_its_power() {
     let run = moved(&body_in(joint), &[], "go");
     check_balance(&run, 2e-8);
     for instant in &run.motion.instants {
-        assert_close(instant.joints[2].velocities[1], 0.06 * instant.rate, 1e-12, "lead");
+        assert_close(instant.joints()[2].velocities[1], 0.06 * instant.rate, 1e-12, "lead");
     }
 }
 
@@ -174,7 +174,7 @@ samples = 401
         let x = 0.05 * angle.cos() + 0.12 * (1.0 - ratio * ratio).sqrt();
         assert_close(instant.state.bodies[2].position.x, x, 1e-13, "slider");
         let slope = -0.05 * angle.sin() - 0.12 * ratio * (50.0 / 120.0) * angle.cos() / (1.0 - ratio * ratio).sqrt();
-        assert_close(instant.joints[3].velocities[0], slope * instant.rate, 1e-11, "its velocity");
+        assert_close(instant.joints()[3].velocities[0], slope * instant.rate, 1e-11, "its velocity");
     }
 }
 

@@ -48,11 +48,7 @@ pub struct Instant {
     pub acceleration: f64,
     /// For each output its components (one or three), SI; None where it has no value.
     pub outputs: Vec<Option<Vec<f64>>>,
-    /// One for each body.
-    pub bodies: Vec<BodyMotion>,
-    /// One for each joint.
-    pub joints: Vec<JointMotion>,
-    /// Poses, wrenches and efforts: the balance of the forces of inertia with all others.
+    /// Poses, velocities, wrenches and efforts: the balance of the forces of inertia with all others.
     pub state: Solution,
     /// Power of all driven joint coordinates, Σ effort × velocity, W.
     pub drive_power: f64,
@@ -60,6 +56,27 @@ pub struct Instant {
     pub gravity_power: f64,
     /// Kinetic energy, J.
     pub kinetic_energy: f64,
+}
+
+impl Instant {
+    /// How the bodies move, one for each.
+    pub fn bodies(&self) -> &[BodyMotion] {
+        self.state.rates.as_ref().map_or(&[], |rates| &rates.bodies)
+    }
+
+    /// How the coordinates of the joints move, one for each joint.
+    pub fn joints(&self) -> &[JointMotion] {
+        self.state.rates.as_ref().map_or(&[], |rates| &rates.joints)
+    }
+}
+
+/// How a mechanism moves in time.
+#[derive(Clone, Debug, Default)]
+pub struct Rates {
+    /// One for each body.
+    pub bodies: Vec<BodyMotion>,
+    /// One for each joint.
+    pub joints: Vec<JointMotion>,
 }
 
 /// How a body moves.

@@ -97,7 +97,7 @@ fn output_series(instants: &[Instant], i: usize, output: &Output) -> Result<Seri
 fn body_series(instants: &[Instant], i: usize, path: &str) -> Result<BodySeries, OutputError> {
     let poses = || instants.iter().map(|instant| &instant.state.bodies[i]);
     let vectors = |field: &str, pick: fn(&BodyMotion) -> Vector3<f64>| {
-        finite_vectors(path, field, instants.iter().map(|instant| pick(&instant.bodies[i]).into()))
+        finite_vectors(path, field, instants.iter().map(|instant| pick(&instant.bodies()[i]).into()))
     };
     let rotations = section_quaternions(poses().map(|pose| &pose.rotation));
     Ok(BodySeries {
@@ -127,7 +127,7 @@ fn joint_series(
         rows(field, &|instant| pick(&instant.state.joints[i]).clone())
     };
     let motions = |field: &str, pick: fn(&JointMotion) -> &Vec<f64>| {
-        rows(field, &|instant| pick(&instant.joints[i]).clone())
+        rows(field, &|instant| pick(&instant.joints()[i]).clone())
     };
     let wrenches = || instants.iter().map(|instant| instant.state.joints[i].wrench);
     Ok(JointSeries {

@@ -48,7 +48,7 @@ pub fn motion_csv(view: &MotionView<'_>) -> Result<String, OutputError> {
             }
         }
         for (name, joint, k) in &coordinates {
-            let (state, motion) = (&instant.state.joints[*joint], &instant.joints[*joint]);
+            let (state, motion) = (&instant.state.joints[*joint], &instant.joints()[*joint]);
             for value in [state.coordinates[*k], motion.velocities[*k], state.efforts[*k]] {
                 row.push(cell(value, || field(&format!("joints.{name}")))?);
             }

@@ -173,6 +173,7 @@ pub fn solution() -> Solution {
             length: (tip.position - spring_start).norm(),
             tension: 0.0,
         }],
+        rates: None,
         energy: 0.5 * bending_stiffness() * CURVATURE * CURVATURE * LENGTH,
         stable: None,
         unstable_directions: None,

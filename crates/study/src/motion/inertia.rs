@@ -7,7 +7,7 @@ use crate::ProblemError;
 use flexura_model::{Drive, InverseDynamicsStudy, LoadId, Model};
 use flexura_nonlinear::System;
 use flexura_post::OutputValue;
-use flexura_solution::{BodyMotion, Instant, JointMotion};
+use flexura_solution::{BodyMotion, Instant, JointMotion, Rates as Motion};
 use flexura_spatial::{Twist, Vector3, Wrench};
 
 /// Motion under the forces of inertia, in units of length and radians, that is not round-off.
@@ -100,6 +100,8 @@ pub(super) fn balanced(
     }
     let mut state = problem.solution(2);
     state.stability_reason = Some("a motion is no equilibrium at rest".to_string());
+    let joints = joint_motions(rates, rate, acceleration);
+    state.rates = Some(Box::new(Motion { bodies, joints }));
     walker.prepared.add_tangents(&mut state, &[]);
     let model = walker.prepared.problem.model();
     let mut warnings = state.warnings.clone();
@@ -116,7 +118,7 @@ pub(super) fn balanced(
             }
         });
     }
-    let joints = joint_motions(rates, rate, acceleration);
+    let joints = state.rates.as_ref().map_or(&[][..], |rates| &rates.joints);
     let mut drive_power = 0.0;
     for (j, joint) in model.joints.iter().enumerate() {
         for (k, law) in joint.law.coordinates.iter().enumerate() {
@@ -127,7 +129,7 @@ pub(super) fn balanced(
     }
     // The next step starts from the configuration without the forces of inertia.
     let problem = walker.problem();
-    for i in 0..bodies.len() {
+    for i in 0..own.bodies.len() {
         problem.set_point_load(LoadId(first_load + i), Vector3::zeros(), Vector3::zeros());
     }
     problem.restore(&rates.state);
@@ -137,8 +139,6 @@ pub(super) fn balanced(
         rate,
         acceleration,
         outputs,
-        bodies,
-        joints,
         state,
         drive_power,
         gravity_power,

@@ -15,6 +15,7 @@ mod frame;
 mod helix_wrench;
 mod joints;
 mod lee_frame;
+mod motion;
 mod pushed_strip;
 mod robot;
 mod roll_up;
@@ -64,6 +65,7 @@ pub fn cases() -> Vec<Case> {
         &lee_frame::CASES,
         &unfolding::CASES,
         &verdicts::CASES,
+        &motion::CASES,
     ]
     .concat()
 }
