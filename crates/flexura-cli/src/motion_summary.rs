@@ -36,9 +36,10 @@ pub fn render(model: &Model, motion: &InverseDynamics) -> String {
     for (i, output) in model.outputs.iter().enumerate() {
         let letters: &[&str] = if output.formulas.len() == 3 { &[".x", ".y", ".z"] } else { &[""] };
         for (k, letter) in letters.iter().enumerate() {
-            let values = motion.instants.iter().filter_map(|instant| {
-                Some((instant.time, *instant.outputs[i].as_ref()?.get(k)?))
-            });
+            let values = motion
+                .instants
+                .iter()
+                .filter_map(|instant| Some((instant.time, *instant.outputs[i].as_ref()?.get(k)?)));
             row(&mut outputs, format!("{}{letter}", output.name), values, &output.unit);
         }
     }

@@ -45,9 +45,7 @@ fn a_trapezoid_passes_its_knots_and_shows_both_sides_of_its_jumps() {
     let run = bundled("knee_leg", &[], "flexion");
     let at = |time: f64| -> Vec<[f64; 3]> {
         let instants = run.motion.instants.iter().filter(|instant| (instant.time - time).abs() < 1e-12);
-        instants
-            .map(|i| [i.value.to_degrees(), i.rate.to_degrees(), i.acceleration.to_degrees()])
-            .collect()
+        instants.map(|i| [i.value.to_degrees(), i.rate.to_degrees(), i.acceleration.to_degrees()]).collect()
     };
     for (time, expected) in [
         (0.0, vec![[-5.0, 0.0, 160.0]]),
@@ -135,8 +133,8 @@ samples = 31
     let (mass, center) = (2.5, Vector3::new(0.03, -0.01, 0.05));
     let about_center = Matrix3::new(0.02, 0.003, -0.004, 0.003, 0.03, 0.005, -0.004, 0.005, 0.04);
     // Steiner.
-    let about_bearing = about_center
-        + (Matrix3::identity() * center.norm_squared() - center * center.transpose()) * mass;
+    let about_bearing =
+        about_center + (Matrix3::identity() * center.norm_squared() - center * center.transpose()) * mass;
     let gravity = Vector3::new(1.5, -2.0, -9.0);
     for instant in &run.motion.instants {
         let t = instant.time;
@@ -297,7 +295,8 @@ pull = "joint.pivot.force"
 "#;
 
 fn pendulum(study: &str) -> flexura::Moved {
-    let text = format!("{PENDULUM}\n[study.swing]\nkind = \"inverse_dynamics\"\nparameter = \"angle\"\n{study}\n");
+    let text =
+        format!("{PENDULUM}\n[study.swing]\nkind = \"inverse_dynamics\"\nparameter = \"angle\"\n{study}\n");
     moved(&text, &[], "swing")
 }
 
@@ -324,11 +323,7 @@ fn a_pendulum_follows_an_expression_of_time() {
     let a = 50f64.to_radians();
     check_pendulum(&run, |t| {
         let (sin, cos) = (TAU * t).sin_cos();
-        [
-            a * sin + 0.1 * t * t * t,
-            a * TAU * cos + 0.3 * t * t,
-            -a * TAU * TAU * sin + 0.6 * t,
-        ]
+        [a * sin + 0.1 * t * t * t, a * TAU * cos + 0.3 * t * t, -a * TAU * TAU * sin + 0.6 * t]
     });
 }
 
@@ -349,7 +344,9 @@ fn a_pendulum_follows_a_spline_through_knots() {
 /// A trapezoid by its duration, downwards, that only just gets to its speed.
 #[test]
 fn a_trapezoid_may_be_given_by_its_duration_and_be_a_triangle() {
-    let run = pendulum("trapezoid = { from = \"40 deg\", to = \"-20 deg\", duration = \"2 s\", ramp = \"1 s\" }\nsamples = 21");
+    let run = pendulum(
+        "trapezoid = { from = \"40 deg\", to = \"-20 deg\", duration = \"2 s\", ramp = \"1 s\" }\nsamples = 21",
+    );
     let (from, to) = (40f64.to_radians(), (-20f64).to_radians());
     assert_eq!(run.motion.instants.len(), 22);
     let instants = &run.motion.instants;
@@ -393,7 +390,12 @@ fn outputs_may_ask_for_velocities() {
     assert_eq!(table.lines().count(), 202);
     assert!(table.lines().next().unwrap().contains("speed.x [m/s]"), "{table}");
     let document = flexura::output::to_json(&run.document().unwrap()).unwrap();
-    for words in ["\"study\": \"inverse_dynamics\"", "\"times\": [0.0, 0.01,", "\"angular_velocity\"", "\"drive_power\""] {
+    for words in [
+        "\"study\": \"inverse_dynamics\"",
+        "\"times\": [0.0, 0.01,",
+        "\"angular_velocity\"",
+        "\"drive_power\"",
+    ] {
         assert!(document.contains(words), "{words}");
     }
     let picture = flexura::output::motion_svg(&run.view());
@@ -409,5 +411,9 @@ fn a_velocity_has_no_value_where_nothing_moves() {
     let (evaluation, without) = flexura::post::evaluate_each(&model, &solution);
     assert!(evaluation.outputs.iter().all(|output| output.name == "torque"));
     assert_eq!(without.len(), 3);
-    assert!(without[0].to_string().contains("only a study of the kind `inverse_dynamics` knows"), "{}", without[0]);
+    assert!(
+        without[0].to_string().contains("only a study of the kind `inverse_dynamics` knows"),
+        "{}",
+        without[0]
+    );
 }

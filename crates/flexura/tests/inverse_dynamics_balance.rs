@@ -41,7 +41,12 @@ fn check_balance(run: &Moved, tolerance: f64) {
             let fast = 1.0 + angular.norm() + velocity.norm();
             assert_close_vec(&body.velocity.linear, &velocity, tolerance * fast, "velocity");
             assert_close_vec(&body.velocity.angular, &angular, tolerance * fast, "angular velocity");
-            assert_close_vec(&body.acceleration.linear, &acceleration, tolerance * fast * fast, "acceleration");
+            assert_close_vec(
+                &body.acceleration.linear,
+                &acceleration,
+                tolerance * fast * fast,
+                "acceleration",
+            );
             assert_close_vec(
                 &body.acceleration.angular,
                 &angular_acceleration,
@@ -60,7 +65,12 @@ fn check_balance(run: &Moved, tolerance: f64) {
                 let rate = slope(step, at, middle);
                 assert_close(*velocity, rate, tolerance * (1.0 + rate.abs()), "velocity of a coordinate");
                 let change = slope(step, |i| instants[i].joints()[j].velocities[k], middle);
-                assert_close(joint.accelerations[k], change, tolerance * (1.0 + change.abs()), "its acceleration");
+                assert_close(
+                    joint.accelerations[k],
+                    change,
+                    tolerance * (1.0 + change.abs()),
+                    "its acceleration",
+                );
             }
         }
     }
@@ -173,7 +183,8 @@ samples = 401
         let ratio: f64 = 50.0 / 120.0 * angle.sin();
         let x = 0.05 * angle.cos() + 0.12 * (1.0 - ratio * ratio).sqrt();
         assert_close(instant.state.bodies[2].position.x, x, 1e-13, "slider");
-        let slope = -0.05 * angle.sin() - 0.12 * ratio * (50.0 / 120.0) * angle.cos() / (1.0 - ratio * ratio).sqrt();
+        let slope =
+            -0.05 * angle.sin() - 0.12 * ratio * (50.0 / 120.0) * angle.cos() / (1.0 - ratio * ratio).sqrt();
         assert_close(instant.joints()[3].velocities[0], slope * instant.rate, 1e-11, "its velocity");
     }
 }

@@ -7,7 +7,7 @@ mod motion;
 mod trace;
 mod words;
 
-pub use motion::{BodyMotion, InverseDynamics, Instant, JointMotion, MotionWork, Rates};
+pub use motion::{BodyMotion, Instant, InverseDynamics, JointMotion, MotionWork, Rates};
 pub use trace::{
     Branch, BranchEnd, BranchOrigin, Buckling, BucklingMode, CriticalCurve, Crossing, Direction, PointKind,
     Trace, TracePoint, TraceWork,

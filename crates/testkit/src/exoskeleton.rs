@@ -35,7 +35,10 @@ fn minus(a: Plane, b: Plane) -> Plane {
 /// The two unknowns of a (2 x 2) = b, rows of the matrix given.
 fn solve(rows: [Plane; 2], b: Plane) -> Plane {
     let determinant = cross(rows[0], rows[1]);
-    [(b[0] * rows[1][1] - b[1] * rows[0][1]) / determinant, (rows[0][0] * b[1] - rows[1][0] * b[0]) / determinant]
+    [
+        (b[0] * rows[1][1] - b[1] * rows[0][1]) / determinant,
+        (rows[0][0] * b[1] - rows[1][0] * b[0]) / determinant,
+    ]
 }
 
 impl Exoskeleton {
@@ -74,8 +77,7 @@ impl Exoskeleton {
         let rows = [minus(pin, hip), minus(pin, hinge[0])];
         let first = solve(rows, [0.0, dot(rows[1], hinge[1])]);
         let relative = minus(first, hinge[1]);
-        let second =
-            solve(rows, [-dot(first, first), dot(rows[1], hinge[2]) - dot(relative, relative)]);
+        let second = solve(rows, [-dot(first, first), dot(rows[1], hinge[2]) - dot(relative, relative)]);
         [pin, first, second]
     }
 
@@ -86,17 +88,16 @@ impl Exoskeleton {
         let hip = [-self.upper, 0.0];
         let hinge = self.hinge_at(theta);
         let pin = self.pin_at(theta, &hinge);
-        let in_time = |point: &[Plane; 3]| {
-            [0, 1].map(|i| point[1][i] * acceleration + point[2][i] * rate * rate)
-        };
+        let in_time =
+            |point: &[Plane; 3]| [0, 1].map(|i| point[1][i] * acceleration + point[2][i] * rate * rate);
         let (pin_acceleration, hinge_acceleration) = (in_time(&pin), in_time(&hinge));
         // What each link lacks of balance without the pin: its rate of momentum less its weight, and the same for its moment about
         // the middle, I α with α from the ends: e × ë = |e|² α.
         let lack = |length: f64, ends: [Plane; 2], accelerations: [Plane; 2]| {
             let mass = self.density * length;
             let middle = [0, 1].map(|i| 0.5 * (accelerations[0][i] + accelerations[1][i]));
-            let turn = cross(minus(ends[1], ends[0]), minus(accelerations[1], accelerations[0]))
-                / (length * length);
+            let turn =
+                cross(minus(ends[1], ends[0]), minus(accelerations[1], accelerations[0])) / (length * length);
             ([mass * middle[0], mass * (middle[1] + leg::GRAVITY)], mass * length * length / 12.0 * turn)
         };
         let upper = lack(self.upper, [hip, pin[0]], [[0.0; 2], pin_acceleration]);

@@ -92,7 +92,9 @@ mod tests {
     fn a_parallelogram_turns_its_rocker_as_its_crank() {
         let bars = FourBar { crank: 1.0, coupler: 2.0, rocker: 1.0, ground: 2.0 };
         let [coupler, rocker] = bars.moved([1.1, 0.6, -0.4]);
-        for (value, expected) in coupler.into_iter().zip([0.0; 3]).chain(rocker.into_iter().zip([1.1, 0.6, -0.4])) {
+        for (value, expected) in
+            coupler.into_iter().zip([0.0; 3]).chain(rocker.into_iter().zip([1.1, 0.6, -0.4]))
+        {
             assert_close(value, expected, 1e-14, "parallelogram");
         }
     }

@@ -1,7 +1,8 @@
 //! A leg that swings at a knee which turns and shifts, and the trapezoidal speed with which it does so.
 //!
-//! Source: "Modeling and Analysis of Compliant Mechanisms", section 3.2, equations 3.11 to 3.13 and Table 3.5. Polar coordinates about the
-//! knee: e_r along the leg, θ from the horizontal downwards, so that gravity is m g (sin θ, cos θ) along (e_r, e_θ).
+//! Source: the thesis *Effects of Joint Constraints on Deformation of Multi-Body Compliant Mechanisms*, section 3.2, equations 3.11 to
+//! 3.13 and Table 3.5. Polar coordinates about the knee: e_r along the leg, θ from the horizontal downwards, so that gravity is
+//! m g (sin θ, cos θ) along (e_r, e_θ).
 
 /// Mass of lower leg and foot, kg.
 pub const MASS: f64 = 3.62;

@@ -68,7 +68,8 @@ impl File {
     ) -> Result<InverseDynamics, String> {
         let overrides = Self::overrides(values);
         let model = self.document.model(&overrides).map_err(|report| report.render(false))?;
-        let parameter = model.parameters.iter().position(|p| p.name == parameter).ok_or("no such parameter")?;
+        let parameter =
+            model.parameters.iter().position(|p| p.name == parameter).ok_or("no such parameter")?;
         let study = InverseDynamicsStudy { parameter, law, sampling };
         let mut family = FileFamily::new(&self.document, &overrides, &model);
         let motion = inverse_dynamics(&model, &mut family, &study, &Options::default(), &mut |_| {})

@@ -1,5 +1,10 @@
 //! Moves models for the tests of motions in time.
-#![allow(dead_code, clippy::unwrap_used, clippy::panic, reason = "each test uses a part; a test may fail where it stands")]
+#![allow(
+    dead_code,
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "each test uses a part; a test may fail where it stands"
+)]
 
 use flexura::model::StudyKind;
 use flexura::modelfile::Document;

@@ -109,11 +109,7 @@ fn check_trapezoid(
                 issues.add_with_hint(
                     path,
                     format!("there is no room for two ramps of {ramp} s in {duration} s"),
-                    format!(
-                        "give it at least {} s, or ramps of at most {} s",
-                        2.0 * ramp,
-                        0.5 * duration
-                    ),
+                    format!("give it at least {} s, or ramps of at most {} s", 2.0 * ramp, 0.5 * duration),
                 );
             }
         }
@@ -123,11 +119,17 @@ fn check_trapezoid(
 fn check_knots(knots: &[[f64; 2]], path: &str, issues: &mut Issues) {
     if knots.len() < 2 {
         let message = format!("a motion needs at least two knots, found {}", knots.len());
-        issues.add_with_hint(path, message, "each is a time and a value: [[\"0 s\", \"0 deg\"], [\"1 s\", \"90 deg\"]]");
+        issues.add_with_hint(
+            path,
+            message,
+            "each is a time and a value: [[\"0 s\", \"0 deg\"], [\"1 s\", \"90 deg\"]]",
+        );
         return;
     }
     for (i, [time, value]) in knots.iter().enumerate() {
-        if !issues.finite(format!("{path}[{i}][0]"), *time) || !issues.finite(format!("{path}[{i}][1]"), *value) {
+        if !issues.finite(format!("{path}[{i}][0]"), *time)
+            || !issues.finite(format!("{path}[{i}][1]"), *value)
+        {
             return;
         }
     }
@@ -179,7 +181,11 @@ fn check_constant(
         return;
     }
     if rate == 0.0 {
-        issues.add_with_hint(path_of("rate"), "nothing moves at a rate of zero", "use `flexura solve` for what stands still");
+        issues.add_with_hint(
+            path_of("rate"),
+            "nothing moves at a rate of zero",
+            "use `flexura solve` for what stands still",
+        );
         return;
     }
     match until {
@@ -223,7 +229,10 @@ fn check_sampling(study: &InverseDynamicsStudy, path: &str, issues: &mut Issues)
             if issues.positive(path.clone(), step) && (end - start) / step > MOST_SAMPLES as f64 {
                 issues.add_with_hint(
                     path,
-                    format!("the motion of {} s would be looked at more than {MOST_SAMPLES} times", end - start),
+                    format!(
+                        "the motion of {} s would be looked at more than {MOST_SAMPLES} times",
+                        end - start
+                    ),
                     "give a longer step",
                 );
             }

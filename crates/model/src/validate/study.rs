@@ -153,7 +153,12 @@ impl Model {
         at_least(buckle.count, 1, &format!("{path}.count"), issues);
     }
 
-    pub(super) fn parameter_of(&self, position: usize, path: &str, issues: &mut Issues) -> Option<&Parameter> {
+    pub(super) fn parameter_of(
+        &self,
+        position: usize,
+        path: &str,
+        issues: &mut Issues,
+    ) -> Option<&Parameter> {
         let parameter = self.parameters.get(position);
         if parameter.is_none() {
             issues.add(format!("{path}.parameter"), "refers to a parameter that does not exist");

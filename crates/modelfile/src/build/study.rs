@@ -122,7 +122,12 @@ pub(super) fn parameter(reader: &Reader<'_, '_>, model: &Model) -> Read<Option<P
 }
 
 /// A value of the parameter; None for it: it is not known, and any value will do.
-pub(super) fn value(reader: &Reader<'_, '_>, node: &Node, path: &str, parameter: Option<&Parameter>) -> Read<f64> {
+pub(super) fn value(
+    reader: &Reader<'_, '_>,
+    node: &Node,
+    path: &str,
+    parameter: Option<&Parameter>,
+) -> Read<f64> {
     let context = reader.context;
     let Some(quantity) = context.quantity(node, path, false)? else {
         let message = format!("expected a number, found {}", node.kind());

@@ -80,9 +80,7 @@ fn output_series(instants: &[Instant], i: usize, output: &Output) -> Result<Seri
     let values = || instants.iter().map(|instant| instant.outputs[i].as_deref()).enumerate();
     if output.formulas.len() == 3 {
         let vectors = values().map(|(t, value)| match value {
-            Some([x, y, z]) => {
-                crate::document::all_finite([*x, *y, *z], || path(t)).map(Some)
-            }
+            Some([x, y, z]) => crate::document::all_finite([*x, *y, *z], || path(t)).map(Some),
             _ => Ok(None),
         });
         return Ok(Series::Vectors(vectors.collect::<Result<_, _>>()?));
@@ -118,10 +116,8 @@ fn joint_series(
 ) -> Result<JointSeries, OutputError> {
     let rows = |field: &str, pick: &dyn Fn(&Instant) -> Vec<f64>| -> Result<Vec<Vec<f64>>, OutputError> {
         let each = instants.iter().enumerate();
-        each.map(|(t, instant)| {
-            finite_list(&format!("{path}.{field}[{t}]"), pick(instant).into_iter())
-        })
-        .collect()
+        each.map(|(t, instant)| finite_list(&format!("{path}.{field}[{t}]"), pick(instant).into_iter()))
+            .collect()
     };
     let states = |field: &str, pick: fn(&JointSolution) -> &Vec<f64>| {
         rows(field, &|instant| pick(&instant.state.joints[i]).clone())

@@ -99,11 +99,12 @@ fn panels(view: &MotionView<'_>) -> (Vec<Panel>, usize) {
             add(&output.unit, output.name.clone(), component(0));
             continue;
         }
+        let size = |values: &[Option<f64>]| values.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
+        let largest = (0..3).map(|k| size(&component(k))).fold(0.0, f64::max);
         for (k, letter) in ["x", "y", "z"].into_iter().enumerate() {
             let values = component(k);
             // Of a vector, what is not zero all the time.
-            let largest = values.iter().flatten().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-            if largest > 1e-9 {
+            if size(&values) > 1e-9 * largest {
                 add(&output.unit, format!("{}.{letter}", output.name), values);
             }
         }
@@ -114,9 +115,11 @@ fn panels(view: &MotionView<'_>) -> (Vec<Panel>, usize) {
             if matches!(law.coordinates[k].drive, Drive::Driven { .. }) {
                 let angle = law.kind.coordinate_kinds()[k] == flexura_model::CoordinateKind::Angle;
                 let unit = if angle { "N*m" } else { "N" };
-                add(unit, format!("effort of {name}"), of(&|instant| {
-                    instant.state.joints[joint].efforts.get(k).copied()
-                }));
+                add(
+                    unit,
+                    format!("effort of {name}"),
+                    of(&|instant| instant.state.joints[joint].efforts.get(k).copied()),
+                );
             }
         }
     }
@@ -140,7 +143,7 @@ fn draw_panel(canvas: &mut Canvas, instants: &[Instant], panel: &Panel, frame: [
     };
     let name = match &panel.curves[..] {
         [only] => only.name.as_str(),
-        _ => "",
+        _ => quantity(&panel.unit),
     };
     let largest = bounds[0].abs().max(bounds[1].abs());
     let up = Axis::new(bounds, name, &panel.unit, height, 36.0, 1e-9 * largest);
@@ -158,6 +161,20 @@ fn draw_panel(canvas: &mut Canvas, instants: &[Instant], panel: &Panel, frame: [
         for run in points.split(Option::is_none).filter(|run| run.len() > 1) {
             canvas.polyline(run.iter().flatten().copied(), &style);
         }
+    }
+}
+
+/// What values of a unit are called where several share an axis.
+fn quantity(unit: &str) -> &'static str {
+    match unit {
+        "N" => "force",
+        "N*m" => "moment",
+        "m" => "length",
+        "rad" => "angle",
+        "m/s" | "rad/s" => "velocity",
+        "m/s^2" | "rad/s^2" => "acceleration",
+        "W" => "power",
+        _ => "value",
     }
 }
 

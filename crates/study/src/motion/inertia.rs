@@ -55,10 +55,8 @@ pub(super) fn balanced(
         // I ω and I α about the centre of mass; I is constant in the body's axes.
         let inertial = |vector: &Vector3<f64>| rotation * (body.inertia * (rotation.inverse() * vector));
         let spin = inertial(&angular);
-        let inertia = Wrench::new(
-            -center_acceleration * body.mass,
-            -(inertial(&turn) + angular.cross(&spin)),
-        );
+        let inertia =
+            Wrench::new(-center_acceleration * body.mass, -(inertial(&turn) + angular.cross(&spin)));
         kinetic_energy += 0.5 * (body.mass * center_velocity.norm_squared() + angular.dot(&spin));
         gravity_power += body.mass * model.gravity.dot(&center_velocity);
         bodies.push(BodyMotion {
@@ -89,7 +87,8 @@ pub(super) fn balanced(
     }
     let mut inconsistent = singular.then(|| "the mechanism is in a singular position".to_string());
     if let Some((cable, push)) = problem.slack_cable() {
-        inconsistent = Some(format!("{cable} would have to push with {push:.6} N: it is slack, and decides nothing"));
+        inconsistent =
+            Some(format!("{cable} would have to push with {push:.6} N: it is slack, and decides nothing"));
     }
     if let Some((joint, shift, turn)) = problem.open_loop() {
         inconsistent = Some(format!(
@@ -184,7 +183,8 @@ fn not_driven(
         Some((joint, coordinate)) => {
             let joint = &own.joints[joint];
             let names = joint.law.kind.coordinate_names();
-            let which = if names.len() > 1 { format!(" (its `{}`)", names[coordinate]) } else { String::new() };
+            let which =
+                if names.len() > 1 { format!(" (its `{}`)", names[coordinate]) } else { String::new() };
             format!(
                 "the joint `{}`{which} is free: drive it by an expression of `{name}`, weld it, or take the mass from what it carries",
                 joint.name

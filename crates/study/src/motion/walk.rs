@@ -129,7 +129,9 @@ impl<'a> Walker<'a> {
                 let name = &model.parameters[self.parameter].name;
                 return Err(ProblemError::new(
                     format!("body.{}", now.name),
-                    format!("its mass, or where it sits, changes with the parameter `{name}` that moves the mechanism"),
+                    format!(
+                        "its mass, or where it sits, changes with the parameter `{name}` that moves the mechanism"
+                    ),
                     "a body that moves keeps its mass: let only joints and places depend on that parameter",
                 ));
             }
@@ -194,8 +196,7 @@ impl<'a> Walker<'a> {
         let own = problem.exchange(law);
         self.value = to;
         let [first, second] = &from.steps;
-        let guess: Vec<f64> =
-            first.iter().zip(second).map(|(a, b)| step * (a + 0.5 * step * b)).collect();
+        let guess: Vec<f64> = first.iter().zip(second).map(|(a, b)| step * (a + 0.5 * step * b)).collect();
         let motion = problem.motion_size(&guess);
         problem.retract(&guess);
         let arrived = self.settle().is_some_and(|first| first <= NEAR && first <= PART * motion + STAGNANT);

@@ -65,7 +65,12 @@ fn swing() -> Result<Vec<Row>, String> {
     let inertia = leg::MASS * 0.37 * 0.37 / 12.0;
     let off = worst(motion.instants.iter().enumerate().map(|(t, instant)| {
         let expected = leg::forces([instant.value, instant.rate, instant.acceleration], inertia);
-        worst([f_r(t), f_theta(t), tau(t)].into_iter().zip(expected).map(|(ours, reference)| (ours - reference).abs()))
+        worst(
+            [f_r(t), f_theta(t), tau(t)]
+                .into_iter()
+                .zip(expected)
+                .map(|(ours, reference)| (ours - reference).abs()),
+        )
     }));
     let [from, to] = [30f64, 90.0].map(f64::to_radians);
     let rate = 80f64.to_radians();
@@ -101,7 +106,12 @@ fn exoskeleton() -> Result<Vec<Row>, String> {
         }
         jumps.push(f_r(after - 1) - f_r(after));
     }
-    rows.push(Row::absolute("jump of f_r with 1 kg/m over that with 0.5 kg/m", 2.0, jumps[1] / jumps[0], 0.01));
+    rows.push(Row::absolute(
+        "jump of f_r with 1 kg/m over that with 0.5 kg/m",
+        2.0,
+        jumps[1] / jumps[0],
+        0.01,
+    ));
     Ok(rows)
 }
 
