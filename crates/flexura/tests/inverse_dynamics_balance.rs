@@ -189,6 +189,44 @@ samples = 401
     }
 }
 
+/// A frame on the ground that depends on the parameter is led as a drive is: x = 0.1 p², and the body on it turns by p.
+#[test]
+fn a_base_that_moves_with_the_parameter_carries_its_body() {
+    let joint = "kind = \"revolute\"\nparent = { body = \"ground\", at = [\"0.1 m + 0.1 m * p^2\", \"-0.2 m\", \"0.3 m\"] }\n\
+                 child = { body = \"top\", at = [0, 0, 0] }\naxis = [0, 0, 1]\ncoordinate = \"p\"";
+    let run = moved(&format!("{BODY}\n[joint.j]\n{joint}\n{LAW}"), &[], "go");
+    for instant in &run.motion.instants {
+        let [p, rate, second] = [instant.value, instant.rate, instant.acceleration];
+        let body = &instant.bodies()[0];
+        let velocity = Vector3::new(0.2 * p * rate, 0.0, 0.0);
+        let acceleration = Vector3::new(0.2 * (p * second + rate * rate), 0.0, 0.0);
+        assert_close_vec(&body.velocity.linear, &velocity, 1e-12, "velocity");
+        assert_close_vec(&body.acceleration.linear, &acceleration, 1e-10, "acceleration");
+        assert_close_vec(&body.velocity.angular, &(Vector3::z() * rate), 1e-12, "angular velocity");
+        let gravity = Vector3::new(1.0, -3.0, -9.0);
+        let force = (body.center_acceleration - gravity) * 1.3;
+        assert_close_vec(&instant.state.joints[0].wrench.force, &force, 1e-10, "force");
+    }
+}
+
+/// A motion over a small part of what the mechanism can do is as exact as one over all of it.
+#[test]
+fn a_short_way_costs_no_digits() {
+    let law =
+        "trapezoid = { from = \"10 deg\", to = \"10.001 deg\", duration = \"0.1 s\", ramp = \"0.03 s\" }";
+    let text = moving::text("knee_leg").replace(
+        "[study.flexion]",
+        &format!("[study.short]\nkind = \"inverse_dynamics\"\nparameter = \"theta\"\n{law}\n[study.flexion]"),
+    );
+    let run = moved(&text, &[], "short");
+    let f_r = run.numbers("f_r").unwrap();
+    for (instant, f_r) in run.motion.instants.iter().zip(f_r) {
+        let expected =
+            flexura_testkit::leg::forces([instant.value, instant.rate, instant.acceleration], 0.0)[0];
+        assert_close(f_r, expected, 1e-9, "f_r");
+    }
+}
+
 /// What moves under the forces of inertia is named, with what it would move by and the joint that is free.
 #[test]
 fn a_mechanism_that_gives_way_is_refused() {

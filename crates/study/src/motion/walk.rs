@@ -110,8 +110,7 @@ impl<'a> Walker<'a> {
     ) -> Result<Self, ProblemError> {
         let first = with_loads(family.model(&[(parameter, value)])?);
         let prepared = Prepared::new(&first)?;
-        let widest = 0.05 * span;
-        Ok(Self { prepared, family, parameter, value, width: 0.2 * widest, widest, first })
+        Ok(Self { prepared, family, parameter, value, width: 0.01 * span, widest: span, first })
     }
 
     pub fn problem(&mut self) -> &mut Equilibrium {
