@@ -113,9 +113,15 @@ impl Dimension {
         Some(Dimension { exponents })
     }
 
-    /// Its SI unit as text that can be read back: "N", "kg/m^3", "" for a plain number.
+    /// Its SI unit as text that can be read back: "N", "kg/m^3", "" for a plain number. An angle counts where the unit has a name
+    /// with it ("rad/s"), and is left out where it has one without ("W" for N·m·rad/s).
     pub fn unit(&self) -> String {
         if let Some((_, _, unit)) = NAMED.iter().find(|(dimension, ..)| dimension == self) {
+            return (*unit).to_string();
+        }
+        // The angle of a power, N·m times rad/s, is left out, as people do.
+        let alike = NAMED.iter().find(|(dimension, ..)| !self.is_number() && dimension.agrees(self));
+        if let Some((_, _, unit)) = alike {
             return (*unit).to_string();
         }
         let mut over = String::new();

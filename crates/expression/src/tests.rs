@@ -361,3 +361,12 @@ proptest! {
         prop_assert_eq!(super::tests::value(&format!("{value:?}")), value);
     }
 }
+
+#[test]
+fn a_unit_leaves_an_angle_out_where_it_has_a_name_without() {
+    let power = Dimension::MOMENT.times(&Dimension::ANGULAR_VELOCITY);
+    assert_eq!(power.unit(), "W");
+    assert_eq!(Dimension::LENGTH.times(&Dimension::ANGLE).unit(), "m");
+    assert_eq!(Dimension::ANGULAR_VELOCITY.unit(), "rad/s");
+    assert_eq!(Dimension::ANGLE.times(&Dimension::ANGLE).unit(), "rad^2");
+}

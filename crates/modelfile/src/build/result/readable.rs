@@ -120,12 +120,12 @@ pub(in crate::build) fn coordinates(kind: JointKind) -> Vec<Readable> {
 pub(super) fn of_joint(kind: JointKind) -> Vec<Readable> {
     let mut list = coordinates(kind);
     list.extend(of_coordinates(kind, "effort", Quantity::Effort, [Dimension::MOMENT, Dimension::FORCE]));
+    list.push(vector("force", Quantity::Force, Dimension::FORCE));
+    list.push(vector("moment", Quantity::Moment, Dimension::MOMENT));
     let velocity = [Dimension::ANGULAR_VELOCITY, Dimension::VELOCITY];
     list.extend(of_coordinates(kind, "velocity", Quantity::Velocity, velocity));
     let acceleration = [Dimension::ANGULAR_ACCELERATION, Dimension::ACCELERATION];
     list.extend(of_coordinates(kind, "acceleration", Quantity::Acceleration, acceleration));
-    list.push(vector("force", Quantity::Force, Dimension::FORCE));
-    list.push(vector("moment", Quantity::Moment, Dimension::MOMENT));
     list
 }
 
