@@ -54,6 +54,7 @@ named! {
     BENDING_STIFFNESS = (3, 1, -2, 0, 0), "a bending stiffness", "N*m^2";
     FORCE_PER_VOLUME = (-2, 1, -2, 0, 0), "a force per volume", "N/m^3";
     POWER = (2, 1, -3, 0, 0), "a power", "W";
+    POWER_OF_MOMENT = (2, 1, -3, 0, 1), "a power", "W";
     TEMPERATURE = (0, 0, 0, 1, 0), "a temperature", "K";
     PITCH = (1, 0, 0, 0, -1), "a length per angle", "m/rad";
     FORCE_PER_ANGLE = (1, 1, -2, 0, -1), "a force per angle", "N/rad";
@@ -113,15 +114,9 @@ impl Dimension {
         Some(Dimension { exponents })
     }
 
-    /// Its SI unit as text that can be read back: "N", "kg/m^3", "" for a plain number. An angle counts where the unit has a name
-    /// with it ("rad/s"), and is left out where it has one without ("W" for N·m·rad/s).
+    /// Its SI unit as text that can be read back: "N", "kg/m^3", "" for a plain number.
     pub fn unit(&self) -> String {
         if let Some((_, _, unit)) = NAMED.iter().find(|(dimension, ..)| dimension == self) {
-            return (*unit).to_string();
-        }
-        // The angle of a power, N·m times rad/s, is left out, as people do.
-        let alike = NAMED.iter().find(|(dimension, ..)| !self.is_number() && dimension.agrees(self));
-        if let Some((_, _, unit)) = alike {
             return (*unit).to_string();
         }
         let mut over = String::new();
