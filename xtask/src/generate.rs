@@ -22,6 +22,7 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
     ("compression_spring", "shape.svg", &["solve", "models/compression_spring.toml", "--set", "push=5 N"]),
     ("four_bar", "shape.svg", &["solve", "models/four_bar.toml"]),
     ("half_ring", "shape.svg", &["solve", "models/half_ring.toml", "--set", "theta=60 deg"]),
+    ("knee_leg", "flexion/motion.svg", &["run", "models/knee_leg.toml", "flexion"]),
     ("lee_frame", "path/diagram.svg", &["run", "models/lee_frame.toml", "path"]),
     ("lee_frame_shapes", "path/shapes.svg", &["run", "models/lee_frame.toml", "path"]),
     ("strip_on_slope", "fold/diagram.svg", &["run", "models/strip_on_slope.toml", "fold"]),

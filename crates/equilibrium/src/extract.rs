@@ -131,6 +131,7 @@ impl Equilibrium {
             stable: None,
             unstable_directions: None,
             stability_reason: Some("stability was not asked for".to_string()),
+            rates: None,
         }
     }
 

@@ -14,6 +14,7 @@
 //!   springs and cables; `system`: the `System` trait on it;
 //! - `accuracy`: the error estimate; `diagnose`: what is loose or held twice; `redundancy`: loops that close nonetheless;
 //! - `tangents`: compliances and motions; `neighbour`: other numbers under the same state; `stand`: an earlier result as state;
+//! - `moving`: what a motion of rigid parts asks;
 //! - `stability`: how many directions an equilibrium is unstable in;
 //! - `extract` and `samples`: the solution.
 
@@ -32,6 +33,7 @@ mod layout;
 mod lift;
 mod lower;
 mod mesh;
+mod moving;
 mod neighbour;
 mod prepare;
 mod redundancy;
@@ -48,6 +50,7 @@ mod tests;
 mod touch;
 mod tubes;
 
+pub use moving::Mover;
 pub use neighbour::Law;
 pub use tangents::CENTRAL;
 

@@ -43,6 +43,7 @@ named! {
     TIME = (0, 0, 1, 0, 0), "a time", "s";
     FREQUENCY = (0, 0, -1, 0, 0), "a frequency", "1/s";
     ANGULAR_VELOCITY = (0, 0, -1, 0, 1), "an angular velocity", "rad/s";
+    ANGULAR_ACCELERATION = (0, 0, -2, 0, 1), "an angular acceleration", "rad/s^2";
     VELOCITY = (1, 0, -1, 0, 0), "a velocity", "m/s";
     ACCELERATION = (1, 0, -2, 0, 0), "an acceleration", "m/s^2";
     FORCE = (1, 1, -2, 0, 0), "a force", "N";
@@ -53,6 +54,7 @@ named! {
     BENDING_STIFFNESS = (3, 1, -2, 0, 0), "a bending stiffness", "N*m^2";
     FORCE_PER_VOLUME = (-2, 1, -2, 0, 0), "a force per volume", "N/m^3";
     POWER = (2, 1, -3, 0, 0), "a power", "W";
+    POWER_OF_MOMENT = (2, 1, -3, 0, 1), "a power", "W";
     TEMPERATURE = (0, 0, 0, 1, 0), "a temperature", "K";
     PITCH = (1, 0, 0, 0, -1), "a length per angle", "m/rad";
     FORCE_PER_ANGLE = (1, 1, -2, 0, -1), "a force per angle", "N/rad";

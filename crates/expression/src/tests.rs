@@ -361,3 +361,10 @@ proptest! {
         prop_assert_eq!(super::tests::value(&format!("{value:?}")), value);
     }
 }
+
+#[test]
+fn a_moment_times_an_angular_velocity_is_a_power() {
+    let power = Dimension::MOMENT.times(&Dimension::ANGULAR_VELOCITY);
+    assert_eq!(power.unit(), "W");
+    assert!(power.agrees(&Dimension::FORCE.times(&Dimension::VELOCITY)));
+}

@@ -7,7 +7,7 @@ use crate::screen;
 use flexura::Options;
 use flexura::model::Model;
 use flexura::modelfile::Document;
-use flexura::output::{self, BucklingDocument, TraceDocument, to_json};
+use flexura::output::{self, BucklingDocument, InverseDynamicsDocument, TraceDocument, to_json};
 use serde::Serialize;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -106,6 +106,7 @@ pub enum StudyDocument {
     Solve(Box<output::Document>),
     Trace(Box<TraceDocument>),
     Buckling(Box<BucklingDocument>),
+    InverseDynamics(Box<InverseDynamicsDocument>),
 }
 
 /// The text of a document.

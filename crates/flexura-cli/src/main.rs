@@ -9,6 +9,7 @@ mod buckling_summary;
 mod commands;
 mod derivatives;
 mod failure;
+mod motion_summary;
 mod progress;
 mod quantity;
 mod screen;

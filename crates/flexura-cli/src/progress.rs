@@ -2,7 +2,7 @@
 
 use crate::quantity::quantity;
 use flexura::model::Parameter;
-use flexura::{Progress, TraceProgress};
+use flexura::{MotionProgress, Progress, TraceProgress};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -79,6 +79,34 @@ fn new_spinner() -> ProgressBar {
     match ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
+    }
+}
+
+/// Shows how far a motion in time has come.
+pub struct MotionMeter(Meter);
+
+impl MotionMeter {
+    pub fn new(is_quiet: bool) -> Self {
+        Self(Meter::new(is_quiet))
+    }
+
+    pub fn update(&mut self, progress: MotionProgress) {
+        if !self.0.is_wanted || self.0.started.elapsed() < PATIENCE {
+            return;
+        }
+        let bar = self.0.bar.get_or_insert_with(|| {
+            let bar = ProgressBar::with_draw_target(Some(progress.of as u64), ProgressDrawTarget::stderr());
+            match ProgressStyle::with_template("{pos} of {len} times {bar:40} {msg}, {elapsed}") {
+                Ok(style) => bar.with_style(style),
+                Err(_) => bar,
+            }
+        });
+        bar.set_message(format!("t = {}", quantity(progress.time, "s", 4)));
+        bar.set_position(progress.done as u64);
+    }
+
+    pub fn finish(self) {
+        self.0.finish();
     }
 }
 

@@ -125,7 +125,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A file may hold such studies itself: [`trace_file`] follows one of them, [`buckle_file`] finds critical loads.
+//! A file may hold such studies itself: [`trace_file`] follows one of them, [`buckle_file`] finds critical loads,
+//! [`inverse_dynamics_file`] moves a rigid mechanism in time.
 //!
 //! # Results
 //!
@@ -134,12 +135,14 @@
 //! document; [`output::beams_csv`], [`output::model_vtp`] and [`output::shape_svg`] the files.
 
 mod family;
+mod motion_file;
 mod places;
 mod solve_file;
 mod sweep;
 mod trace_file;
 
 pub use family::FileFamily;
+pub use motion_file::{Moved, inverse_dynamics_file, motion_view};
 pub use places::place;
 pub use sweep::{Axis, Sample, SampleStatus, Sweep};
 
@@ -152,8 +155,8 @@ pub use flexura_post as post;
 pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;
 pub use flexura_study::{
-    Census, Equilibrium, Family, Options, Outcome, Prepared, ProblemError, Progress, SensitivityError,
-    TraceProgress, buckle, check, equilibria, solve, solve_family, trace,
+    Census, Equilibrium, Family, MotionProgress, Options, Outcome, Prepared, ProblemError, Progress,
+    SensitivityError, TraceProgress, buckle, check, equilibria, inverse_dynamics, solve, solve_family, trace,
 };
 pub use solve_file::{Error, Solved, solve_file};
 pub use trace_file::{Buckled, Traced, buckle_file, study_named, trace_file, trace_view};

@@ -149,7 +149,7 @@ pub fn study_named<'m>(file: &Document, model: &'m Model, name: &str) -> Result<
     })
 }
 
-fn chosen<T>(
+pub(crate) fn chosen<T>(
     file: &Document,
     model: &Model,
     name: Option<&str>,

@@ -13,6 +13,7 @@ mod inverse;
 mod joint;
 mod load;
 mod material;
+mod motion;
 mod notch;
 mod output;
 mod profile;
@@ -33,6 +34,7 @@ pub use joint::{
 };
 pub use load::{Attachment, BeamPoint, Load, LoadFrame, LoadTarget, PointMass};
 pub use material::{Material, Section, Shape};
+pub use motion::{InverseDynamicsStudy, MotionLaw, Pace, Sampling, Until};
 pub use notch::{Notch, NotchShape};
 pub use output::{Output, Probe, ProbeTarget, Quantity};
 pub use profile::{At, Profile};

@@ -123,6 +123,14 @@ pub enum Quantity {
     /// The point at which the coupling block of the compliance is symmetric; in the plane, where a force
     /// turns nothing and a moment shifts nothing (beam, body), m.
     CenterOfCompliance,
+    /// Velocity of the origin (body), or of a coordinate, whose number is the component (joint); of a motion in time only.
+    Velocity,
+    /// Angular velocity (body).
+    AngularVelocity,
+    /// Acceleration of the origin (body), or of a coordinate (joint).
+    Acceleration,
+    /// Angular acceleration (body).
+    AngularAcceleration,
     /// Strain energy of the mechanism.
     Energy,
     /// Value of a parameter (model), whose position is the component: in events it may change along the path.

@@ -1,6 +1,6 @@
 //! What is to be done with a mechanism: the studies that stand in its file.
 
-use crate::Target;
+use crate::{InverseDynamicsStudy, Target};
 
 /// A named study.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,8 @@ pub enum StudyKind {
     Trace(TraceStudy),
     /// Critical loads and shapes of the linearised problem.
     Buckle(BuckleStudy),
+    /// Velocities, accelerations and forces of a motion in time.
+    InverseDynamics(InverseDynamicsStudy),
 }
 
 impl StudyKind {
@@ -29,6 +31,7 @@ impl StudyKind {
             StudyKind::Solve => "solve",
             StudyKind::Trace(_) => "trace",
             StudyKind::Buckle(_) => "buckle",
+            StudyKind::InverseDynamics(_) => "inverse_dynamics",
         }
     }
 }

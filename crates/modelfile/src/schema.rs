@@ -139,7 +139,8 @@ fn named(schema: String) -> String {
 fn value(shape: &Shape) -> String {
     match shape {
         Shape::Number(_) | Shape::Profile(_) | Shape::Function(_) | Shape::Station => refer("number"),
-        Shape::AnyNumber | Shape::Count => refer("number"),
+        Shape::AnyNumber | Shape::AnyRate | Shape::AnyFunction | Shape::Count => refer("number"),
+        Shape::Knots => list(list_of("number", 2), None, 2),
         Shape::FlagOrCount => any_of([type_of("boolean"), refer("number")]),
         Shape::Texts => any_of([type_of("string"), list(type_of("string"), None, 0)]),
         Shape::Notched(_) => any_of(std::iter::once(refer("number")).chain(shape.table().map(table))),

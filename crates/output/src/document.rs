@@ -323,11 +323,11 @@ pub(crate) fn all_finite<const N: usize>(
     }
 }
 
-fn finite_list(path: &str, values: impl Iterator<Item = f64>) -> Result<Vec<f64>, OutputError> {
+pub(crate) fn finite_list(path: &str, values: impl Iterator<Item = f64>) -> Result<Vec<f64>, OutputError> {
     values.enumerate().map(|(i, value)| finite(value, || format!("{path}[{i}]"))).collect()
 }
 
-fn finite_vectors<const N: usize>(
+pub(crate) fn finite_vectors<const N: usize>(
     path: &str,
     field: &str,
     values: impl Iterator<Item = [f64; N]>,

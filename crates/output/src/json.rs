@@ -26,6 +26,11 @@ impl<T> Named<T> {
         items.map(entry).collect::<Result<_, _>>().map(Named)
     }
 
+    /// Is there none at all?
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// The value of that name.
     pub fn get(&self, name: &str) -> Option<&T> {
         self.0.iter().find(|(key, _)| key == name).map(|(_, value)| value)

@@ -11,6 +11,7 @@ mod csv;
 mod derivatives;
 mod document;
 mod json;
+mod motion;
 mod read;
 mod svg;
 mod trace;
@@ -21,8 +22,12 @@ pub use contact::{ContactDocument, SideDocument};
 pub use csv::beams_csv;
 pub use document::{document, equilibrium_document};
 pub use json::{Named, to_json};
+pub use motion::{
+    BodySeries, CableSeries, InverseDynamicsDocument, JointSeries, MotionView, MotionWorkDocument, Series,
+    SpringSeries, motion_csv, motion_document,
+};
 pub use read::{ReadError, read_document, solution_of};
-pub use svg::{diagram_svg, modes_svg, shape_svg, shapes_svg};
+pub use svg::{diagram_svg, modes_svg, motion_svg, shape_svg, shapes_svg};
 pub use trace::{
     BranchDocument, BucklingDocument, CriticalDocument, ModeDocument, MotionDocument, MotionsDocument,
     PointDocument, Remake, ShapeDocument, TraceDocument, TraceView, TraceWorkDocument, buckling_document,

@@ -88,6 +88,7 @@ pub fn solution_of(document: &Document, model: &Model) -> Result<Solution, ReadE
         stable: document.stable,
         unstable_directions: document.unstable_directions,
         stability_reason: document.stability_reason.clone(),
+        rates: None,
     };
     // Springs, couplings, cables and tubes follow from the rest; one that the document does not know is no obstacle.
     let springs = model.springs.iter().map(|spring| {

@@ -169,6 +169,14 @@ pub enum PostError {
         /// Why there is none.
         why: &'static str,
     },
+    /// A velocity or acceleration where nothing moves in time.
+    #[error(
+        "output `{output}` asks for a velocity or acceleration, which only a study of the kind `inverse_dynamics` knows"
+    )]
+    NoMotion {
+        /// Name of the output.
+        output: String,
+    },
     /// A quantity that its target does not have.
     #[error("output `{output}` asks for a quantity that {target} does not have")]
     NoSuchQuantity {

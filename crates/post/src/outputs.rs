@@ -3,7 +3,7 @@
 use crate::screw::{center_of_compliance, finite_screw, instantaneous_screw};
 use crate::{BeamStress, PostError};
 use flexura_model::{At, BeamId, BodyId, Model, Output, Probe, ProbeTarget, Quantity};
-use flexura_solution::{ContactSolution, Solution, TangentSolution};
+use flexura_solution::{ContactSolution, Rates, Solution, TangentSolution};
 use flexura_spatial::{Matrix6, Pose, Vector3, log};
 
 /// The value of an output, in SI units.
@@ -100,6 +100,15 @@ impl Reader<'_> {
             ProbeTarget::Body(body) => self.read_body(body, probe.quantity, component),
             ProbeTarget::Joint(joint) => {
                 let result = self.solution.joints.get(joint.0);
+                if let Quantity::Velocity | Quantity::Acceleration = probe.quantity {
+                    let motion = self.rates()?.joints.get(joint.0);
+                    let values = motion.map(|motion| match probe.quantity {
+                        Quantity::Velocity => &motion.velocities,
+                        _ => &motion.accelerations,
+                    });
+                    let value = values.and_then(|values| values.get(component)).copied();
+                    return value.ok_or_else(|| self.no_such_quantity("a joint"));
+                }
                 let value = result.and_then(|joint| match probe.quantity {
                     Quantity::Coordinate => joint.coordinates.get(component).copied(),
                     Quantity::Effort => joint.efforts.get(component).copied(),
@@ -170,6 +179,19 @@ impl Reader<'_> {
             Quantity::Compliance | Quantity::Stiffness | Quantity::CenterOfCompliance => {
                 return self.read_compliance(target, &pose.position, quantity, component);
             }
+            Quantity::Velocity
+            | Quantity::AngularVelocity
+            | Quantity::Acceleration
+            | Quantity::AngularAcceleration => {
+                let motion = self.rates()?.bodies.get(body.0).ok_or_else(missing)?;
+                let vector = match quantity {
+                    Quantity::Velocity => motion.velocity.linear,
+                    Quantity::AngularVelocity => motion.velocity.angular,
+                    Quantity::Acceleration => motion.acceleration.linear,
+                    _ => motion.acceleration.angular,
+                };
+                return vector.get(component).copied().ok_or_else(missing);
+            }
             _ => return pose_component(pose, quantity, component).ok_or_else(missing),
         };
         let screw = screw.ok_or_else(no_turning)?;
@@ -182,6 +204,10 @@ impl Reader<'_> {
             }
             _ => Ok(screw.pitch),
         }
+    }
+
+    fn rates(&self) -> Result<&Rates, PostError> {
+        self.solution.rates.as_deref().ok_or_else(|| PostError::NoMotion { output: self.output.to_owned() })
     }
 
     fn tangent(&self, target: ProbeTarget) -> Result<&TangentSolution, PostError> {

@@ -86,6 +86,7 @@ fn strip(force: f64, moment: f64) -> (Model, Solution) {
         stable: None,
         unstable_directions: None,
         stability_reason: None,
+        rates: None,
     };
     (model, solution)
 }

@@ -4,10 +4,12 @@
 //! unless said otherwise. `F` and `M` act, by the part beyond s, on the part before s.
 
 mod contact;
+mod motion;
 mod trace;
 mod words;
 
 pub use contact::ContactSolution;
+pub use motion::{BodyMotion, Instant, InverseDynamics, JointMotion, MotionWork, Rates};
 pub use trace::{
     Branch, BranchEnd, BranchOrigin, Buckling, BucklingMode, CriticalCurve, Crossing, Direction, PointKind,
     Trace, TracePoint, TraceWork,
@@ -103,6 +105,8 @@ pub struct Solution {
     pub sensitivities: Option<Sensitivities>,
     /// The parameters that were solved for: position in the model's parameters, value (SI).
     pub found: Vec<(usize, f64)>,
+    /// How it moves in time; None of an equilibrium.
+    pub rates: Option<Box<Rates>>,
     /// Strain energy of beams and springs, J.
     pub energy: f64,
     /// Is it a stable equilibrium? None where that is not decided.

@@ -2,6 +2,7 @@
 
 mod family;
 mod inverse;
+mod motion;
 mod search;
 mod sensitivity;
 mod solve;
@@ -9,6 +10,7 @@ mod trace;
 
 pub use family::Family;
 pub use flexura_equilibrium::{Census, Equilibrium, ProblemError};
+pub use motion::{MotionProgress, inverse_dynamics};
 pub use search::equilibria;
 pub use sensitivity::SensitivityError;
 pub use solve::{Options, Outcome, Prepared, Progress, solve, solve_family};

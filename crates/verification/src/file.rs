@@ -2,9 +2,9 @@
 
 use flexura::modelfile::Document;
 use flexura::post::{self, Evaluation, OutputValue};
-use flexura::{FileFamily, Options, solve_family};
-use flexura_model::Model;
-use flexura_solution::Status;
+use flexura::{FileFamily, Options, inverse_dynamics, solve_family};
+use flexura_model::{InverseDynamicsStudy, Model, MotionLaw, Sampling};
+use flexura_solution::{InverseDynamics, Status};
 
 /// A model file, with what a case adds to it.
 pub struct File {
@@ -53,6 +53,40 @@ impl File {
         }
         let evaluation = post::evaluate(&model, &solution).map_err(|error| error.to_string())?;
         Ok(Answer { model, evaluation })
+    }
+
+    /// Through a motion in time, with some parameters (SI) overridden.
+    ///
+    /// # Errors
+    /// The model is wrong, or the motion was not gone through to its end.
+    pub fn moved(
+        &self,
+        values: &[(&str, f64)],
+        parameter: &str,
+        law: MotionLaw,
+        sampling: Sampling,
+    ) -> Result<InverseDynamics, String> {
+        let overrides = Self::overrides(values);
+        let model = self.document.model(&overrides).map_err(|report| report.render(false))?;
+        let parameter =
+            model.parameters.iter().position(|p| p.name == parameter).ok_or("no such parameter")?;
+        let study = InverseDynamicsStudy { parameter, law, sampling };
+        let mut family = FileFamily::new(&self.document, &overrides, &model);
+        let motion = inverse_dynamics(&model, &mut family, &study, &Options::default(), &mut |_| {})
+            .map_err(|error| error.to_string())?;
+        match motion.status {
+            Status::Converged => Ok(motion),
+            status => Err(format!("{}: {}", status.word(), motion.reason.unwrap_or_default())),
+        }
+    }
+
+    /// The position of an output.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn output(&self, name: &str) -> Result<usize, String> {
+        let model = self.document.model(&[]).map_err(|report| report.render(false))?;
+        model.outputs.iter().position(|o| o.name == name).ok_or_else(|| format!("no output {name}"))
     }
 
     /// Parameters as the file has them.

@@ -109,6 +109,9 @@ conforms!(
     fold_curves,
     crossing_slope,
     undecided_stability,
+    knee_leg,
+    knee_exoskeleton,
+    four_bar_motion,
 );
 
 #[test]

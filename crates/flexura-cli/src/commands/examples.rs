@@ -52,6 +52,8 @@ const MODELS: &[(&str, &str)] = &bundled![
     "greenhill_shaft",
     "hinged_beams",
     "hockling_shaft",
+    "knee_exoskeleton",
+    "knee_leg",
     "lateral_strip",
     "lattice",
     "lattice_3d",

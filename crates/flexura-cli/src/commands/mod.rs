@@ -5,6 +5,7 @@ pub mod check;
 pub mod completions;
 mod earlier;
 pub mod examples;
+pub mod motion;
 pub mod run;
 pub mod schema;
 pub mod solve;

@@ -1,6 +1,6 @@
 //! `flexura run FILE [STUDY]`
 
-use super::{buckle, file_failure, solve, trace, warn_about};
+use super::{buckle, file_failure, motion, solve, trace, warn_about};
 use crate::answer::{Answer, StudyDocument, Task, json};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
@@ -76,6 +76,7 @@ fn answer(task: &Task<'_>, study: &Study) -> Result<Answer, Failure> {
         StudyKind::Solve => solve::study(task, None),
         StudyKind::Trace(trace) => trace::study(task, &study.name, trace),
         StudyKind::Buckle(buckle) => buckle::study(task, &study.name, buckle),
+        StudyKind::InverseDynamics(motion) => motion::study(task, &study.name, motion),
     }
 }
 

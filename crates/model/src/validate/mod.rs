@@ -6,6 +6,7 @@ use flexura_spatial::{Matrix3, Pose, Vector3};
 mod beam;
 mod joint;
 mod load;
+mod motion;
 mod result;
 mod section;
 mod spring;

@@ -21,6 +21,10 @@ impl Model {
                 self.check_forward(&path, "asked for critical loads", &mut issues);
                 self.check_buckle(buckle, &path, &mut issues);
             }
+            StudyKind::InverseDynamics(motion) => {
+                self.check_forward(&path, "moved in time", &mut issues);
+                self.check_motion(motion, &path, &mut issues);
+            }
         }
         issues.0
     }
@@ -149,7 +153,12 @@ impl Model {
         at_least(buckle.count, 1, &format!("{path}.count"), issues);
     }
 
-    fn parameter_of(&self, position: usize, path: &str, issues: &mut Issues) -> Option<&Parameter> {
+    pub(super) fn parameter_of(
+        &self,
+        position: usize,
+        path: &str,
+        issues: &mut Issues,
+    ) -> Option<&Parameter> {
         let parameter = self.parameters.get(position);
         if parameter.is_none() {
             issues.add(format!("{path}.parameter"), "refers to a parameter that does not exist");
@@ -197,7 +206,7 @@ fn check_ends([from, to]: [f64; 2], parameter: &Parameter, path: &str, issues: &
     from != to
 }
 
-fn at_least(count: usize, least: usize, path: &str, issues: &mut Issues) {
+pub(super) fn at_least(count: usize, least: usize, path: &str, issues: &mut Issues) {
     if count < least {
         issues.add(path, format!("must be at least {least}, is {count}"));
     }
@@ -208,7 +217,7 @@ fn ordered([a, b]: [f64; 2]) -> [f64; 2] {
 }
 
 /// A value of a parameter with its unit, angles in degrees.
-fn shown(value: f64, parameter: &Parameter) -> String {
+pub(super) fn shown(value: f64, parameter: &Parameter) -> String {
     if parameter.unit == "rad" {
         // Degrees that were typed come back as they were.
         return format!("{} deg", (value.to_degrees() * 1e9).round() / 1e9);

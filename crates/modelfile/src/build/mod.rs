@@ -9,6 +9,7 @@ mod curve;
 mod joint;
 mod load;
 mod material;
+mod motion;
 mod place;
 mod result;
 mod spring;

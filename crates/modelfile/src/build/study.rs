@@ -1,7 +1,7 @@
 //! Studies: what is to be done with the mechanism.
 
 use super::result::{Built, event, live_outputs, stop};
-use super::{name, named_entries, table_of};
+use super::{motion, name, named_entries, table_of};
 use crate::context::{Context, Needed, Read, Reported, suggest};
 use crate::reader::Reader;
 use crate::tree::{Entry, Node, Value};
@@ -31,6 +31,7 @@ fn study(context: &Context<'_>, entry: &Entry, model: &Model, outputs: &[Built])
     let kind = match reader.variant {
         "trace" => StudyKind::Trace(trace(&reader, model, outputs)?),
         "buckle" => StudyKind::Buckle(buckle(&reader, model)?),
+        "inverse_dynamics" => StudyKind::InverseDynamics(motion::inverse_dynamics(&reader, model)?),
         _ => StudyKind::Solve,
     };
     Ok(Study { name: entry.key.clone(), kind })
@@ -100,14 +101,14 @@ fn critical(reader: &Reader<'_, '_>, model: &Model) -> Read<Option<CriticalStudy
 }
 
 /// A parameter that a study names.
-struct Parameter {
-    position: usize,
-    name: String,
-    kind: Kind,
+pub(super) struct Parameter {
+    pub position: usize,
+    pub name: String,
+    pub kind: Kind,
 }
 
 /// The parameter behind the key `parameter`.
-fn parameter(reader: &Reader<'_, '_>, model: &Model) -> Read<Option<Parameter>> {
+pub(super) fn parameter(reader: &Reader<'_, '_>, model: &Model) -> Read<Option<Parameter>> {
     let context = reader.context;
     let Some(name) = reader.text("parameter")? else { return Ok(None) };
     let Some(quantity) = context.parameters.get(name) else {
@@ -121,7 +122,12 @@ fn parameter(reader: &Reader<'_, '_>, model: &Model) -> Read<Option<Parameter>> 
 }
 
 /// A value of the parameter; None for it: it is not known, and any value will do.
-fn value(reader: &Reader<'_, '_>, node: &Node, path: &str, parameter: Option<&Parameter>) -> Read<f64> {
+pub(super) fn value(
+    reader: &Reader<'_, '_>,
+    node: &Node,
+    path: &str,
+    parameter: Option<&Parameter>,
+) -> Read<f64> {
     let context = reader.context;
     let Some(quantity) = context.quantity(node, path, false)? else {
         let message = format!("expected a number, found {}", node.kind());
@@ -142,7 +148,7 @@ fn value(reader: &Reader<'_, '_>, node: &Node, path: &str, parameter: Option<&Pa
     Ok(quantity.value)
 }
 
-fn number(reader: &Reader<'_, '_>, key: &str, parameter: Option<&Parameter>) -> Read<Option<f64>> {
+pub(super) fn number(reader: &Reader<'_, '_>, key: &str, parameter: Option<&Parameter>) -> Read<Option<f64>> {
     let Some((entry, _)) = reader.entry(key) else { return Ok(None) };
     value(reader, &entry.node, &reader.key_path(key), parameter).map(Some)
 }

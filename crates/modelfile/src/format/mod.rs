@@ -6,6 +6,7 @@
 mod attachments;
 mod contacts;
 mod joints;
+mod motion;
 mod relations;
 mod sections;
 mod springs;
@@ -169,6 +170,12 @@ pub(crate) enum Shape {
     AnyRange,
     /// Two numbers, each of the dimension of something else.
     AnyPair,
+    /// Such a number per second.
+    AnyRate,
+    /// An expression of the time whose value is such a number.
+    AnyFunction,
+    /// Rows of a time and such a number.
+    Knots,
     /// Two expressions of joint coordinates with an equals sign between them.
     Equation,
     /// Three lengths, or two lengths or expressions of s.
@@ -259,6 +266,9 @@ impl Shape {
             Shape::AnyNumber => "a number of the parameter's dimension".into(),
             Shape::AnyRange => "two numbers of the parameter's dimension".into(),
             Shape::AnyPair => "two numbers, each of its curve's dimension".into(),
+            Shape::AnyRate => "a number of the parameter's dimension per second".into(),
+            Shape::AnyFunction => "an expression of t of the parameter's dimension".into(),
+            Shape::Knots => "a list of knots, each a time and a number of the parameter's dimension".into(),
             Shape::Equation => "an equation between joint coordinates".into(),
             Shape::Offset => "three lengths, or two lengths or expressions of s".into(),
             Shape::Points => "a list of points, each three numbers (m)".into(),

@@ -1,5 +1,6 @@
 //! The tables of studies.
 
+use super::motion::MOTION;
 use super::tables::{key, table, variant};
 use super::{Need, Shape, Table, Variants};
 use Need::{Default, Optional, Required};
@@ -110,6 +111,11 @@ pub(crate) static STUDY: Table = Table {
                         "How many critical values, those nearest to `at` first.",
                     ),
                 ],
+            ),
+            variant(
+                "inverse_dynamics",
+                "A motion in time through one parameter that drives a rigid mechanism: velocities, accelerations, and the forces and efforts that it takes.",
+                &MOTION,
             ),
         ],
     }),

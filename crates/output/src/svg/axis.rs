@@ -18,8 +18,10 @@ pub struct Shown {
 impl Shown {
     /// For values up to `largest` in an SI unit.
     pub fn of(largest: f64, unit: &str) -> Self {
-        if unit == "rad" {
-            return Self { factor: 1f64.to_degrees(), unit: "°".to_owned() };
+        // Angles, and their rates.
+        if let Some(over) = unit.strip_prefix("rad").filter(|over| over.is_empty() || over.starts_with("/s"))
+        {
+            return Self { factor: 1f64.to_degrees(), unit: format!("°{}", over.replace("^2", "²")) };
         }
         let (largest, unit, grams) =
             if unit == "kg" { (1e3 * largest, "g", 1e3) } else { (largest, unit, 1.0) };
@@ -159,6 +161,8 @@ mod tests {
             (0.05, "kg", "g", 1e3),
             (0.5, "N*m", "mN·m", 1e3),
             (1.0, "rad", "°", 180.0 / std::f64::consts::PI),
+            (1.0, "rad/s^2", "°/s²", 180.0 / std::f64::consts::PI),
+            (1.0, "rad/m", "rad/m", 1.0),
             (0.02, "", "", 1.0),
             (2e-6, "m^2", "10⁻⁶ m²", 1e6),
             (3e7, "1/m", "10⁶ 1/m", 1e-6),

@@ -109,7 +109,8 @@ fn draw_panel(canvas: &mut Canvas, view: &TraceView<'_>, series: &Series, frame:
     }
 }
 
-fn draw_axes(canvas: &mut Canvas, frame: [f64; 4], across: &Axis, up: &Axis) {
+/// Ground, grid, ticks and names of a panel.
+pub fn draw_axes(canvas: &mut Canvas, frame: [f64; 4], across: &Axis, up: &Axis) {
     let [left, top, width, height] = frame;
     canvas.ground(frame);
     let grid = Style::line("#e9e9e9", 0.8);

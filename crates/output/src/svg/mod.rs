@@ -13,6 +13,7 @@ mod axis;
 mod canvas;
 mod curve;
 mod diagram;
+mod history;
 mod layout;
 mod marks;
 mod outlines;
@@ -21,6 +22,7 @@ mod series;
 mod shapes;
 
 pub use diagram::diagram_svg;
+pub use history::motion_svg;
 pub use shapes::{modes_svg, shapes_svg};
 
 use canvas::{Canvas, Style};

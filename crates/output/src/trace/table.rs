@@ -100,7 +100,7 @@ fn rest_of_row(view: &TraceView<'_>, path: &str, point: &TracePoint) -> Result<V
     Ok(row)
 }
 
-fn output_headings(model: &Model) -> Vec<String> {
+pub(crate) fn output_headings(model: &Model) -> Vec<String> {
     let mut headings = Vec::new();
     for output in &model.outputs {
         match output.formulas.len() {
@@ -112,18 +112,18 @@ fn output_headings(model: &Model) -> Vec<String> {
     headings
 }
 
-fn headed(name: &str, unit: &str) -> String {
+pub(crate) fn headed(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") }
 }
 
 /// The shortest text that reads back as the same number.
-fn cell(value: f64, field: impl FnOnce() -> String) -> Result<String, OutputError> {
+pub(crate) fn cell(value: f64, field: impl FnOnce() -> String) -> Result<String, OutputError> {
     if !value.is_finite() {
         return Err(OutputError::NotFinite { field: field(), value });
     }
     Ok(format!("{value:?}"))
 }
 
-fn line(cells: Vec<String>) -> String {
+pub(crate) fn line(cells: Vec<String>) -> String {
     cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n"
 }

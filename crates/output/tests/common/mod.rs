@@ -179,6 +179,7 @@ pub fn solution() -> Solution {
             tension: 0.0,
             ..SpringSolution::default()
         }],
+        rates: None,
         energy: 0.5 * bending_stiffness() * CURVATURE * CURVATURE * LENGTH,
         stable: None,
         unstable_directions: None,

@@ -139,6 +139,7 @@ pub fn state(w: f64) -> Solution {
         stable: Some(true),
         unstable_directions: Some(0),
         stability_reason: None,
+        rates: None,
     }
 }
 

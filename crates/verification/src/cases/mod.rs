@@ -16,6 +16,7 @@ mod helix_wrench;
 mod joints;
 mod lee_frame;
 mod ligaments;
+mod motion;
 mod pushed_strip;
 mod robot;
 mod roll_up;
@@ -66,6 +67,7 @@ pub fn cases() -> Vec<Case> {
         &lee_frame::CASES,
         &unfolding::CASES,
         &verdicts::CASES,
+        &motion::CASES,
     ]
     .concat()
 }

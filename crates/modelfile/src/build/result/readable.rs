@@ -92,6 +92,12 @@ pub(super) fn of_body() -> Vec<Readable> {
     ];
     list.push(Readable { name: "screw", part: Part::Group(screw) });
     list.push(Readable { name: "motion", part: Part::Group(motion) });
+    list.extend([
+        vector("velocity", Quantity::Velocity, Dimension::VELOCITY),
+        vector("angular_velocity", Quantity::AngularVelocity, Dimension::ANGULAR_VELOCITY),
+        vector("acceleration", Quantity::Acceleration, Dimension::ACCELERATION),
+        vector("angular_acceleration", Quantity::AngularAcceleration, Dimension::ANGULAR_ACCELERATION),
+    ]);
     list
 }
 
@@ -162,25 +168,13 @@ fn of_contact(law: &JointLaw, contact: &Contact) -> Vec<Readable> {
 pub(super) fn of_joint(law: &JointLaw) -> Vec<Readable> {
     let kind = law.kind;
     let mut list = coordinates(kind);
-    let effort = |kind: CoordinateKind| match kind {
-        CoordinateKind::Angle => Dimension::MOMENT,
-        CoordinateKind::Length => Dimension::FORCE,
-    };
-    match (kind, kind.coordinate_kinds()) {
-        (_, []) => {}
-        (JointKind::Spherical, _) => list.push(vector("effort", Quantity::Effort, Dimension::MOMENT)),
-        (_, [only]) => list.push(number("effort", Quantity::Effort, effort(*only))),
-        (_, kinds) => {
-            let each = kind.coordinate_names().iter().zip(kinds).enumerate();
-            let efforts = each.map(|(i, (name, kind))| Readable {
-                name,
-                part: Part::Number(Quantity::Effort, effort(*kind), i),
-            });
-            list.push(Readable { name: "effort", part: Part::Group(efforts.collect()) });
-        }
-    }
+    list.extend(of_coordinates(kind, "effort", Quantity::Effort, [Dimension::MOMENT, Dimension::FORCE]));
     list.push(vector("force", Quantity::Force, Dimension::FORCE));
     list.push(vector("moment", Quantity::Moment, Dimension::MOMENT));
+    let velocity = [Dimension::ANGULAR_VELOCITY, Dimension::VELOCITY];
+    list.extend(of_coordinates(kind, "velocity", Quantity::Velocity, velocity));
+    let acceleration = [Dimension::ANGULAR_ACCELERATION, Dimension::ACCELERATION];
+    list.extend(of_coordinates(kind, "acceleration", Quantity::Acceleration, acceleration));
     if let Some(contact) = &law.contact {
         list.push(Readable { name: "contact", part: Part::Group(of_contact(law, contact)) });
     }
@@ -195,6 +189,32 @@ pub(super) fn of_spring(law: &SpringLaw) -> Vec<Readable> {
         list.push(number("stress", Quantity::Stress, Dimension::PRESSURE));
     }
     list
+}
+
+/// A quantity that each coordinate has one of, with its dimensions for an angle and for a length.
+fn of_coordinates(
+    kind: JointKind,
+    name: &'static str,
+    quantity: Quantity,
+    [angle, length]: [Dimension; 2],
+) -> Option<Readable> {
+    let dimension = |kind: CoordinateKind| match kind {
+        CoordinateKind::Angle => angle,
+        CoordinateKind::Length => length,
+    };
+    match (kind, kind.coordinate_kinds()) {
+        (_, []) => None,
+        (JointKind::Spherical, _) => Some(vector(name, quantity, angle)),
+        (_, [only]) => Some(number(name, quantity, dimension(*only))),
+        (_, kinds) => {
+            let each = kind.coordinate_names().iter().zip(kinds).enumerate();
+            let parts = each.map(|(i, (name, kind))| Readable {
+                name,
+                part: Part::Number(quantity, dimension(*kind), i),
+            });
+            Some(Readable { name, part: Part::Group(parts.collect()) })
+        }
+    }
 }
 
 /// Of a spring or a cable.
