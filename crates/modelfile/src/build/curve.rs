@@ -68,7 +68,9 @@ pub(super) fn parametric(reader: &Reader<'_, '_>) -> Read<Curve> {
     let kind = range.map_or(Kind::Plain, |range| match (range[0].kind, range[1].kind) {
         (Kind::Plain, kind) | (kind, _) => kind,
     });
-    let [x, y, z] = ["x", "y", "z"].map(|key| match reader.entry(key) {
+    // A curve in a plane has no z.
+    let has = |key: &str| reader.keys().iter().any(|known| known.name == key);
+    let [x, y, z] = ["x", "y", "z"].map(|key| match has(key).then(|| reader.entry(key)).flatten() {
         Some((entry, format)) => {
             reader.function_in(&entry.node, &reader.key_path(key), &format.shape.dimension(), variable, kind)
         }
@@ -211,7 +213,8 @@ pub(super) fn from_file<const N: usize>(
     let text = read(reader, file)?;
     let wrong = |line: usize, message: String| {
         let hint = format!(
-            "each line holds {N} numbers {}, divided by commas; the first may name the columns",
+            "each line holds {} numbers {}, divided by commas; the first may name the columns",
+            if N == 2 { "two" } else { "three" },
             names.join(", ")
         );
         reader.wrong_at("file", format!("{file}, line {line}: {message}"), hint)
