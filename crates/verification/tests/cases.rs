@@ -112,6 +112,13 @@ conforms!(
     knee_leg,
     knee_exoskeleton,
     four_bar_motion,
+    ellipse_on_circle,
+    ellipse_sliding,
+    ellipse_on_ellipse,
+    ellipse_in_bowl,
+    explicit_recipe,
+    knee_slide,
+    rolling_beam,
 );
 
 #[test]

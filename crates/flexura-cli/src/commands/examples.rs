@@ -39,6 +39,7 @@ const MODELS: &[(&str, &str)] = &bundled![
     "knee_ellipse",
     "knee_ellipses",
     "wheel_on_slope",
+    "rolling_beam",
     "cam_follower",
     "clearance_pin",
     "wing_ligaments",

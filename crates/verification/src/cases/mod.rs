@@ -20,6 +20,7 @@ mod motion;
 mod pushed_strip;
 mod robot;
 mod roll_up;
+mod rolling;
 mod sideways;
 mod slide_law;
 mod snaps;
@@ -68,6 +69,7 @@ pub fn cases() -> Vec<Case> {
         &unfolding::CASES,
         &verdicts::CASES,
         &motion::CASES,
+        &rolling::CASES,
     ]
     .concat()
 }
