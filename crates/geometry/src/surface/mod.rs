@@ -130,14 +130,14 @@ impl ImplicitSurface {
         self.fit
     }
 
-    /// A length to compare with, m; 1 of a plane.
+    /// A length to compare with, m; infinite of a plane.
     pub fn size(&self) -> f64 {
         match &self.kind {
             Kind::Ellipsoid(axes) | Kind::Heights(Heights { axes, .. }) => {
                 axes.iter().copied().fold(0.0, f64::max)
             }
             Kind::Cylinder([a, b]) => a.max(*b),
-            Kind::Plane => 1.0,
+            Kind::Plane => f64::INFINITY,
             Kind::Revolution(profile) => {
                 let [from, to] = profile.range();
                 profile.widest().max(0.5 * (to - from))

@@ -168,7 +168,7 @@ impl ImplicitSurface {
     }
 
     /// A place of the surface near x, along the gradients on the way.
-    fn settled(&self, mut x: Triple<f64>) -> Option<Triple<f64>> {
+    pub fn settled(&self, mut x: Triple<f64>) -> Option<Triple<f64>> {
         let size = self.size();
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {

@@ -4,7 +4,7 @@
 //! b = a - S(q); where roll and slide keep a ratio ρ, b = a ρ/(1 + ρ); where the contact stays on the parent, b = 0. All
 //! are b = c a - S(q).
 
-use super::error::ContactError;
+use crate::joint::ContactError;
 use flexura_expression::Function;
 use flexura_geometry::FunctionSpline;
 use flexura_model::{RollingCoordinate, Slide};
