@@ -194,6 +194,8 @@ impl Kinematics for Touching {
 }
 
 #[cfg(test)]
+mod path_tests;
+#[cfg(test)]
 pub(super) mod samples;
 #[cfg(test)]
 mod tests;
