@@ -82,6 +82,7 @@ impl<const N: usize> Sub for Dual<N> {
     }
 }
 
+#[expect(clippy::suspicious_arithmetic_impl, reason = "the rule of products")]
 impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
@@ -89,6 +90,7 @@ impl<const N: usize> Mul for Dual<N> {
     }
 }
 
+#[expect(clippy::suspicious_arithmetic_impl, reason = "the rule of quotients")]
 impl<const N: usize> Div for Dual<N> {
     type Output = Self;
     fn div(self, b: Self) -> Self {

@@ -86,10 +86,10 @@ pub enum JointKind {
     /// axis; one coordinate.
     Rolling(RollingCoordinate),
     /// A surface of the child touches one of the parent and slides on it without friction: the rotation vector from F to M,
-    /// and two parameters u, v of the contact. These are the parent's where the child's surface is curved outwards in both directions, otherwise the
-    /// child's: longitude and latitude of an ellipsoid or of heights (of the coordinates divided by the semi-axes), longitude and z of a cylinder or a
-    /// surface of revolution, x and y of a plane. All count as angles: those that are lengths are numbers of metres, whose effort is
-    /// in J/m.
+    /// and two parameters u, v of the contact. These are the parent's where the child's surface is curved outwards in both
+    /// directions, otherwise the child's: longitude and latitude of an ellipsoid or of heights (of the coordinates divided by
+    /// the semi-axes), longitude and z of a cylinder or a surface of revolution, x and y of a plane. All count as angles: those
+    /// that are lengths are numbers of metres, whose effort is in J/m.
     Contact,
     /// A surface of the child rolls on one of the parent without slip and without spin, along a path; one angle.
     SurfaceRolling,

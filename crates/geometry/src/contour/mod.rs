@@ -53,7 +53,10 @@ pub struct Contour {
 #[derive(Clone, Debug)]
 enum Kind {
     /// Point at s = 0 and angle of the tangent; s is minus the parameter where `reversed`.
-    Line { point: [f64; 2], angle: f64 },
+    Line {
+        point: [f64; 2],
+        angle: f64,
+    },
     Curve(Curve),
 }
 
@@ -269,7 +272,7 @@ impl Curve {
 /// A line's tangent has its outside, where the normal points, to the right.
 fn line(point: [f64; 2], normal: [f64; 2], range: Option<[f64; 2]>) -> Result<Contour, BoundaryError> {
     let size = normal[0].hypot(normal[1]);
-    if !(size.is_finite() && size > 0.0) || !point.iter().all(|x| x.is_finite()) {
+    if !(size.is_finite() && size > 0.0 && point.iter().all(|x| x.is_finite())) {
         return Err(BoundaryError::NoNormal);
     }
     let range = range.map(checked_range).transpose()?;

@@ -22,6 +22,7 @@ const OPEN: f64 = 1e-11;
 #[derive(Clone, Debug)]
 pub(super) struct Heights {
     pub axes: [f64; 3],
+    degree: usize,
     terms: Vec<Term>,
 }
 
@@ -31,32 +32,36 @@ struct Term {
     powers: [usize; 3],
 }
 
-/// Powers z^0 to z^degree of the three numbers.
-struct Powers<T>([[T; HIGHEST + 1]; 3]);
+/// z^n of the three numbers with their first two derivatives, for n up to the degree.
+struct Powers<T>([[[T; HIGHEST + 1]; 3]; 3]);
 
 impl<T: Scalar> Powers<T> {
-    fn new(z: &[T; 3]) -> Self {
-        let mut table = [[T::from(1.0); HIGHEST + 1]; 3];
-        for (row, z) in table.iter_mut().zip(z) {
-            for n in 1..=HIGHEST {
-                row[n] = row[n - 1] * *z;
+    fn new(z: &[T; 3], degree: usize) -> Self {
+        let zero = T::from(0.0);
+        let mut tables = [[[zero; HIGHEST + 1]; 3]; 3];
+        for (table, z) in tables.iter_mut().zip(z) {
+            table[0][0] = T::from(1.0);
+            for n in 1..=degree {
+                table[0][n] = table[0][n - 1] * *z;
+                table[1][n] = T::from(n as f64) * table[0][n - 1];
+                table[2][n] = T::from(n as f64) * table[1][n - 1];
             }
         }
-        Self(table)
+        Self(tables)
     }
 
-    /// The monomial, differentiated once along each of the given axes.
-    fn term(&self, mut powers: [usize; 3], along: &[usize]) -> T {
-        let mut factor = 1.0;
-        for axis in along {
-            if powers[*axis] == 0 {
-                return T::from(0.0);
-            }
-            factor *= powers[*axis] as f64;
-            powers[*axis] -= 1;
-        }
-        T::from(factor) * self.0[0][powers[0]] * self.0[1][powers[1]] * self.0[2][powers[2]]
+    /// The monomial, differentiated along each axis as often as `order` says.
+    fn term(&self, [i, j, k]: [usize; 3], order: [usize; 3]) -> T {
+        self.0[0][order[0]][i] * self.0[1][order[1]][j] * self.0[2][order[2]][k]
     }
+}
+
+/// Which derivative belongs to an entry of the Hessian.
+fn order(i: usize, j: usize) -> [usize; 3] {
+    let mut order = [0; 3];
+    order[i] += 1;
+    order[j] += 1;
+    order
 }
 
 fn monomials(degree: usize) -> Vec<[usize; 3]> {
@@ -88,15 +93,15 @@ impl Heights {
             let z: [f64; 3] = std::array::from_fn(|i| point[i] / axes[i]);
             let square: f64 = z.iter().map(|z| z * z).sum();
             let ratio = square.sqrt();
-            if !(ratio >= NEAR[0] && ratio <= NEAR[1]) {
+            if !(NEAR[0]..=NEAR[1]).contains(&ratio) {
                 return Err(SurfaceError::PointFar { index: row, ratio, least: NEAR[0], most: NEAR[1] });
             }
             // ∇f0 = 2 z/axes, of which one unit of f is 1/|∇f0| metres; in units of the first axis.
             let slope: f64 = (0..3).map(|i| (2.0 * z[i] * axes[0] / axes[i]).powi(2)).sum();
             let weight = 1.0 / slope.sqrt();
-            let table = Powers::new(&z);
+            let table = Powers::new(&z, degree);
             for (column, powers) in powers.iter().enumerate() {
-                matrix[(row, column)] = weight * table.term(*powers, &[]);
+                matrix[(row, column)] = weight * table.term(*powers, [0; 3]);
             }
             right[row] = weight * (square - 1.0);
         }
@@ -109,7 +114,7 @@ impl Heights {
         let factors = decomposition.solve(&right, open).map_err(|_| SurfaceError::Undetermined { degree })?;
         let terms =
             powers.iter().zip(&factors).map(|(powers, factor)| Term { factor: *factor, powers: *powers });
-        Ok(Self { axes, terms: terms.collect() })
+        Ok(Self { axes, degree, terms: terms.collect() })
     }
 
     fn scaled<T: Scalar>(&self, x: &[T; 3]) -> [T; 3] {
@@ -119,10 +124,10 @@ impl Heights {
     /// f with Σ c P counted `share` times: from the ellipsoid (0) to the surface (1).
     pub fn value<T: Scalar>(&self, x: &[T; 3], share: f64) -> T {
         let z = self.scaled(x);
-        let table = Powers::new(&z);
+        let table = Powers::new(&z, self.degree);
         let mut f = z[0] * z[0] + z[1] * z[1] + z[2] * z[2] - T::from(1.0);
         for term in &self.terms {
-            f = f - T::from(share * term.factor) * table.term(term.powers, &[]);
+            f = f - T::from(share * term.factor) * table.term(term.powers, [0; 3]);
         }
         f
     }
@@ -130,30 +135,34 @@ impl Heights {
     /// ∇f, 1/m.
     pub fn gradient<T: Scalar>(&self, x: &[T; 3], share: f64) -> [T; 3] {
         let z = self.scaled(x);
-        let table = Powers::new(&z);
+        let table = Powers::new(&z, self.degree);
         let mut slope = z.map(|z| T::from(2.0) * z);
         for term in &self.terms {
-            for i in 0..3 {
-                slope[i] = slope[i] - T::from(share * term.factor) * table.term(term.powers, &[i]);
+            let factor = T::from(share * term.factor);
+            for (i, order) in [[1, 0, 0], [0, 1, 0], [0, 0, 1]].into_iter().enumerate() {
+                slope[i] = slope[i] - factor * table.term(term.powers, order);
             }
         }
         std::array::from_fn(|i| slope[i] * T::from(1.0 / self.axes[i]))
     }
 
-    /// ∇∇f v, 1/m.
-    pub fn hessian<T: Scalar>(&self, x: &[T; 3], v: &[T; 3], share: f64) -> [T; 3] {
-        let z = self.scaled(x);
-        let along = self.scaled(v);
-        let table = Powers::new(&z);
-        let mut bend = along.map(|v| T::from(2.0) * v);
+    /// ∇∇f, 1/m².
+    pub fn hessian<T: Scalar>(&self, x: &[T; 3], share: f64) -> [[T; 3]; 3] {
+        let table = Powers::new(&self.scaled(x), self.degree);
+        let mut bend = [[T::from(0.0); 3]; 3];
         for term in &self.terms {
+            let factor = T::from(-share * term.factor);
             for i in 0..3 {
-                for j in 0..3 {
-                    let second = table.term(term.powers, &[i, j]);
-                    bend[i] = bend[i] - T::from(share * term.factor) * second * along[j];
+                for j in i..3 {
+                    bend[i][j] = bend[i][j] + factor * table.term(term.powers, order(i, j));
                 }
             }
         }
-        std::array::from_fn(|i| bend[i] * T::from(1.0 / self.axes[i]))
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let own = if i == j { bend[i][i] + T::from(2.0) } else { bend[i.min(j)][i.max(j)] };
+                own * T::from(1.0 / (self.axes[i] * self.axes[j]))
+            })
+        })
     }
 }

@@ -1,9 +1,9 @@
 //! Surfaces of bodies, as the places where a function is zero: f(x) = 0, with f > 0 outside; x in metres.
 //!
 //! The outward unit normal is n = ∇f/|∇f|. Along a tangent v it changes by S v = (H v - n (n·H v))/|∇f|, with H = ∇∇f: the
-//! shape operator, whose eigenvalues are the principal curvatures, positive where the body is convex (do Carmo, *Differential Geometry of Curves
-//! and Surfaces*, 3-2; n outwards changes the sign). Everything is evaluated over [`Scalar`], so that exact
-//! derivatives can be had with dual numbers.
+//! shape operator, whose eigenvalues are the principal curvatures, positive where the body is convex (do Carmo,
+//! *Differential Geometry of Curves and Surfaces*, 3-2, with n outwards). Everything is evaluated over [`Scalar`], so that
+//! exact derivatives can be had with dual numbers.
 
 mod error;
 mod heights;
@@ -14,7 +14,7 @@ mod support;
 pub use error::SurfaceError;
 
 use crate::dual::Scalar;
-use crate::dual::vector::{Triple, difference, dot, norm, scaled, tangents, unit};
+use crate::dual::vector::{Triple, difference, dot, norm, scaled, tangents, turned, unit};
 use flexura_model::Surface;
 use flexura_spatial::Vector3;
 use heights::Heights;
@@ -119,8 +119,8 @@ impl ImplicitSurface {
         Ok(self)
     }
 
-    /// Is it curved outwards in both directions everywhere, so that every normal belongs to one place? (Of a surface through points:
-    /// wherever it was measured.)
+    /// Is it curved outwards in both directions everywhere, so that every normal belongs to one place? (Of a surface through
+    /// points: wherever it was measured.)
     pub fn is_rounded(&self) -> bool {
         self.rounded
     }
@@ -201,7 +201,7 @@ impl ImplicitSurface {
                 let [_, _, d2, d3] = profile.jet(x[2].value());
                 [two * v[0], two * v[1], -(x[2].lift(d2, d3) * v[2])]
             }
-            Kind::Heights(heights) => heights.hessian(x, v, 1.0),
+            Kind::Heights(heights) => turned(&heights.hessian(x, 1.0), v),
         }
     }
 

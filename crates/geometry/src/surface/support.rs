@@ -11,8 +11,8 @@ const STEPS: usize = 60;
 const WAYPOINTS: usize = 16;
 
 impl ImplicitSurface {
-    /// The place x whose outward normal is along m: λ ∇f(x) = m, f(x) = 0, λ > 0. Derivatives of m carry over exactly. None where there
-    /// is none, or where the surface is not curved in both directions.
+    /// The place x whose outward normal is along m: λ ∇f(x) = m, f(x) = 0, λ > 0. Derivatives of m carry over exactly. None
+    /// where there is none, or where the surface is not curved in both directions.
     pub fn support<T: Scalar>(&self, m: &Triple<T>) -> Option<Triple<T>> {
         if let Kind::Ellipsoid(axes) = &self.kind {
             // x = D² m/|D m| with D = diag(axes).
@@ -59,18 +59,17 @@ impl ImplicitSurface {
     fn bordered(&self, x: &Triple<f64>, lambda: f64, share: f64) -> Matrix4<f64> {
         let mut matrix = Matrix4::zeros();
         let gradient = self.gradient_of(x, share);
-        for j in 0..3 {
-            let mut axis = [0.0; 3];
-            axis[j] = 1.0;
-            let column = match &self.kind {
-                Kind::Heights(heights) => heights.hessian(x, &axis, share),
-                _ => self.hessian(x, &axis),
-            };
-            for i in 0..3 {
-                matrix[(i, j)] = lambda * column[i];
+        let hessian = match &self.kind {
+            Kind::Heights(heights) => heights.hessian(x, share),
+            // Symmetric: rows are columns.
+            _ => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| self.hessian(x, &axis)),
+        };
+        for i in 0..3 {
+            for j in 0..3 {
+                matrix[(i, j)] = lambda * hessian[i][j];
             }
-            matrix[(3, j)] = gradient[j];
-            matrix[(j, 3)] = gradient[j];
+            matrix[(3, i)] = gradient[i];
+            matrix[(i, 3)] = gradient[i];
         }
         matrix
     }

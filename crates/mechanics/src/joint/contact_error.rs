@@ -14,7 +14,9 @@ pub enum ContactError {
         source: BoundaryError,
     },
     /// The turning of a tangent says where the contact is on convex boundaries only.
-    #[error("the child's boundary is not curved outwards everywhere, so its turning does not say where it touches")]
+    #[error(
+        "the child's boundary is not curved outwards everywhere, so its turning does not say where it touches"
+    )]
     NotConvex,
     /// Two lines touch everywhere or nowhere.
     #[error("both boundaries are straight lines, which cannot roll on each other")]
@@ -30,7 +32,9 @@ pub enum ContactError {
         parent: f64,
     },
     /// Nowhere in the initial orientation do the normals oppose.
-    #[error("in the initial poses there is no place where the two boundaries could touch with opposite normals")]
+    #[error(
+        "in the initial poses there is no place where the two boundaries could touch with opposite normals"
+    )]
     NoContact,
     /// The first contact is not on the curve.
     #[error("the first contact on the {which}, at the parameter {parameter}, is not on its boundary")]
@@ -63,7 +67,9 @@ pub enum ContactError {
     #[error("the coordinates in the table of the slide law must increase")]
     SlideTable,
     /// Pure sliding within a hollow that fits exactly, and the like: nothing says how the travel goes.
-    #[error("with the coordinate `{coordinate}` the travel is not defined, because the boundaries have equal curvatures and no slip")]
+    #[error(
+        "with the coordinate `{coordinate}` the travel is not defined, because the boundaries have equal curvatures and no slip"
+    )]
     Conforming {
         /// The coordinate's name.
         coordinate: &'static str,
@@ -91,10 +97,14 @@ pub enum ContactError {
     #[error("the axis that a surface rolls about must be finite and other than zero")]
     NoAxis,
     /// Turning about the normal is spin, not rolling.
-    #[error("the axis that the surface rolls about is along the normal of the first contact, about which it would spin")]
+    #[error(
+        "the axis that the surface rolls about is along the normal of the first contact, about which it would spin"
+    )]
     AxisAlongNormal,
     /// The coordinate must be able to be zero.
-    #[error("the range of a rolling surface must lead from a negative angle, or zero, to a positive one, but is {from} to {to} rad")]
+    #[error(
+        "the range of a rolling surface must lead from a negative angle, or zero, to a positive one, but is {from} to {to} rad"
+    )]
     RollingRange {
         /// First angle, rad.
         from: f64,

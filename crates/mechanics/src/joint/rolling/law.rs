@@ -12,9 +12,9 @@
 //!
 //! so that dα = κ_A da + ε κ_B db, and the child's point in contact moves by -ε T_B (da - db): not at all without slip.
 
-use crate::joint::ContactError;
 use super::touch;
 use super::travel::{Jet, Slip, Travel, outwards};
+use crate::joint::ContactError;
 use flexura_geometry::{Contour, ContourPoint};
 use flexura_model::{Rolling, RollingCoordinate};
 use std::f64::consts::{PI, TAU};
@@ -265,8 +265,7 @@ impl RollingLaw {
         let total = ka + kb * share;
         let da = (1.0 + kb * s[1]) / total;
         let db = share * da - s[1];
-        let dda =
-            (child.curvature_rate * da * da + kb * s[2] - parent.curvature_rate * db * db) / total;
+        let dda = (child.curvature_rate * da * da + kb * s[2] - parent.curvature_rate * db * db) / total;
         Some([a, da, dda])
     }
 

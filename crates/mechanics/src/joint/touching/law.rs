@@ -8,7 +8,8 @@
 //! ```
 //!
 //! One of the surfaces, the *host*, may be any; the other must be curved in both directions, so that its place is known
-//! from its normal, x = x(normal) with the rate G = dx/dnormal, the inverse of the shape operator S. R and the host's place are then free.
+//! from its normal, x = x(normal) with the rate G = dx/dnormal, the inverse of the shape operator S. R and the host's place
+//! are then free.
 
 use crate::joint::ContactError;
 use flexura_geometry::dual::vector::{Rows, Triple, back, cross, difference, scaled, sum, tangents, turned};
@@ -122,7 +123,12 @@ impl TouchingLaw {
     ///   host B:  -e×Y - σ R G_A Rᵀ (e×n)       t + σ R G_A Rᵀ S_B t
     ///   host A:  -e×Y + G_B (e×n)             -R t - σ G_B R S_A t          Y = R x_A
     /// ```
-    pub(super) fn column<T: Scalar>(&self, rotation: &Rows<T>, host: &Triple<T>, i: usize) -> Option<Triple<T>> {
+    pub(super) fn column<T: Scalar>(
+        &self,
+        rotation: &Rows<T>,
+        host: &Triple<T>,
+        i: usize,
+    ) -> Option<Triple<T>> {
         let place = self.place(rotation, host)?;
         let sense = T::from(self.sense);
         let zero = [T::from(0.0); 3];
@@ -171,8 +177,8 @@ impl TouchingLaw {
         Some(column.map(|x| x.rates[0]))
     }
 
-    /// Curvatures of child and parent added up, S_A + σ S_B, over the tangents at the contact: the gap opens in all directions where
-    /// they are positive.
+    /// Curvatures of child and parent added up, S_A + σ S_B, over the tangents at the contact: the gap opens in all directions
+    /// where they are positive.
     pub(super) fn relative(&self, rotation: &Rows<f64>, place: &Place<f64>) -> Curvatures {
         let across = tangents(&place.normal);
         let own = self.child.shape(&place.child, &across.map(|t| back(rotation, &t)));

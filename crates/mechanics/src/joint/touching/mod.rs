@@ -6,8 +6,8 @@ mod law;
 mod path;
 
 pub use law::TouchingLaw;
-pub use path::RollingPath;
 pub(super) use path::Path;
+pub use path::RollingPath;
 
 use super::spherical::Spherical;
 use super::{Configuration, ContactError, ContactState, Kinematics, MAX_FREEDOMS};

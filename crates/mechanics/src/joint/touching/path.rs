@@ -9,8 +9,9 @@
 //! ```
 //!
 //! With the axis a and its part a_T = a - (a·n) n in the tangent plane: *rolling* has ω = a_T. *Osculating* has w along
-//! e = a × n_c/|a × n_c|, so that the path lies in the osculating plane across a_T (the thesis, 3.1): ω = n_c × K w, as large as ω·a_T = |a_T|² makes it.
-//! Both are the same where e is a principal direction of K. M's origin has the velocity -ω × R x_A.
+//! e = a × n_c/|a × n_c|, so that the path lies in the osculating plane across a_T (the thesis, 3.1): ω = n_c × K w, as large
+//! as ω·a_T = |a_T|² makes it. Both are the same where e is a principal direction of K. M's origin has the velocity
+//! -ω × R x_A.
 
 use super::law::{Place, TouchingLaw, turning};
 use super::{closest::closest, nowhere, radius, rows};
@@ -19,7 +20,8 @@ use crate::ode::{self, Rate, State};
 use flexura_geometry::ImplicitSurface;
 use flexura_geometry::dual::Scalar;
 use flexura_geometry::dual::vector::{
-    Rows, Triple, back, constant, cross, difference, dot, moving, norm, rates, scaled, sum, tangents, turned, unit,
+    Rows, Triple, back, constant, cross, difference, dot, moving, norm, rates, scaled, sum, tangents, turned,
+    unit,
 };
 use flexura_model::{SurfaceMotion, Surfaces};
 use flexura_spatial::{Pose, Quaternion, Twist, UnitQuaternion, Vector3, exp, log};
@@ -303,7 +305,7 @@ impl RollingPath {
             let omega = self.flow(&rows(&at.rotation), &at.child, &at.parent).omega;
             let step = missing(&at).dot(&Vector3::from(omega)) / dot(&omega, &omega);
             let next = (q + step.clamp(-LONGEST, LONGEST)).clamp(self.range[0], self.range[1]);
-            if !((next - q).abs() > 1e-16) {
+            if (next - q).abs() <= 1e-16 || !next.is_finite() {
                 break;
             }
             q = next;
@@ -342,9 +344,7 @@ impl Kinematics for Path {
     }
     fn pose(&self, configuration: &Configuration) -> Pose {
         match self.law.at(configuration[0]) {
-            Some(at) => {
-                Pose::new(at.rotation, Vector3::from(self.law.place(&at).position()) / self.unit)
-            }
+            Some(at) => Pose::new(at.rotation, Vector3::from(self.law.place(&at).position()) / self.unit),
             // Beyond the end of the motion there is no pose; the state is refused.
             None => Pose::translation(Vector3::repeat(f64::NAN)),
         }

@@ -4,8 +4,8 @@ use super::samples::*;
 use super::*;
 use crate::joint::Joint;
 use flexura_model::{
-    Boundary, BoundaryCurve, Contact, JointKind, JointLaw, RevolutionProfile, Rolling, RollingCoordinate, Slide,
-    Surface, SurfaceMotion, Surfaces,
+    Boundary, BoundaryCurve, Contact, JointKind, JointLaw, RevolutionProfile, Rolling, RollingCoordinate,
+    Slide, Surface, SurfaceMotion, Surfaces,
 };
 use flexura_spatial::{exp, log};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -31,8 +31,8 @@ fn at(joint: &Joint, q: f64) -> (Pose, Configuration) {
     (joint.pose(&configuration), configuration)
 }
 
-/// The shoulder contact of the thesis (Table 4.1) in an orientation in which it is one of ellipses: the centre after a turn of 15 degrees, from the
-/// planar law by quadrature of both arcs.
+/// The coracoid and keel of the thesis (Table 4.1), turned by 15 degrees about y, in whose plane both sections are ellipses: the
+/// child's centre from Simpson's rule for both arcs and bisection for where they are equal and the normals oppose.
 #[test]
 fn an_ellipsoid_on_an_ellipsoid_after_fifteen_degrees() {
     for motion in [rolling(0.0, 1.0, 0.0), osculating(0.0, 1.0, 0.0)] {
@@ -68,7 +68,8 @@ fn principal_sections_roll_as_in_the_plane() {
         })));
         let planar = Joint::new(&law, 1.0, &above(height)).unwrap();
         for motion in [rolling(0.0, 2.0, 0.0), osculating(0.0, 1.0, 0.0)] {
-            let surfaces = described(axes(b, 0.8, a), axes(d, if concave { 4.0 } else { 0.6 }, c), concave, motion);
+            let surfaces =
+                described(axes(b, 0.8, a), axes(d, if concave { 4.0 } else { 0.6 }, c), concave, motion);
             let spatial = made(surfaces, 1.0, &above(height)).unwrap();
             for q in [-3.0, -1.1, -0.2, 0.3, 0.9, 2.4, PI] {
                 let (ours, configuration) = at(&spatial, q);
@@ -89,8 +90,8 @@ fn principal_sections_roll_as_in_the_plane() {
     }
 }
 
-/// A ball of radius r on one of radius ρ, about an axis that is not across the normal. With κ = r σ/(ρ + σ r) the normal goes round
-/// the axis, n' = κ a × n, and ω with it: R = exp(κ q a) exp(q (ω_0 - κ a)).
+/// A ball of radius r on one of radius ρ, about an axis that is not across the normal. With κ = r σ/(ρ + σ r) the normal goes
+/// round the axis, n' = κ a × n, and ω with it: R = exp(κ q a) exp(q (ω_0 - κ a)).
 #[test]
 fn a_ball_on_a_ball_goes_round_the_axis() {
     let (r, axis) = (0.7, Vector3::new(0.0, 0.6, 0.8));
@@ -110,7 +111,10 @@ fn a_ball_on_a_ball_goes_round_the_axis() {
                 assert!(log(&(pose.rotation * rotation.inverse())).norm() < 1e-12);
                 let contact = joint.contact(&configuration).unwrap();
                 assert!((contact.travel[0] - rho * kappa.abs() * omega.norm() * q).abs() < 1e-12);
-                assert!((contact.radii[0].unwrap() - r).abs() + (contact.radii[1].unwrap() - sense * rho).abs() < 1e-12);
+                assert!(
+                    (contact.radii[0].unwrap() - r).abs() + (contact.radii[1].unwrap() - sense * rho).abs()
+                        < 1e-12
+                );
             }
         }
     }
@@ -203,12 +207,16 @@ fn a_motion_does_not_depend_on_where_it_starts() {
     assert_eq!(other.range(), Some([-0.31, 0.47]));
     let (middle, _) = at(&long, 0.47);
     let next = short([-0.6, 0.5], &middle);
-    for (joint, shift, q) in [(&other, 0.0, 0.47), (&other, 0.0, -0.31), (&next, 0.47, 0.4), (&next, 0.47, -0.6)] {
+    for (joint, shift, q) in
+        [(&other, 0.0, 0.47), (&other, 0.0, -0.31), (&next, 0.47, 0.4), (&next, 0.47, -0.6)]
+    {
         let (here, there) = (at(joint, q).0, at(&long, q + shift).0);
         assert!((here.position - there.position).norm() < 1e-12);
         assert!(log(&(here.rotation * there.rotation.inverse())).norm() < 1e-12);
     }
-    assert!(at(&other, 0.4701).0.position.x.is_nan() && other.contact(&other.configuration(&[0.48])).is_none());
+    assert!(
+        at(&other, 0.4701).0.position.x.is_nan() && other.contact(&other.configuration(&[0.48])).is_none()
+    );
 }
 
 /// The motion ends with a profile, and where a hollow becomes too narrow.

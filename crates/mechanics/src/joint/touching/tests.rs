@@ -55,7 +55,8 @@ fn points_meet_and_normals_oppose() {
             let [t1, t2] = tangents(&normal);
             for i in 0..12 {
                 let (sin, cos) = (0.5 * f64::from(i)).sin_cos();
-                let beside = sum(&contact.points[0].into(), &sum(&scaled(0.05 * cos, &t1), &scaled(0.05 * sin, &t2)));
+                let beside =
+                    sum(&contact.points[0].into(), &sum(&scaled(0.05 * cos, &t1), &scaled(0.05 * sin, &t2)));
                 let beside = own.along(&beside, &normal).unwrap();
                 let seen = pose.position * 0.7 + pose.rotation * Vector3::from(beside);
                 assert!(sense * other.value(&seen.into()) > 1e-5);
@@ -99,8 +100,8 @@ fn the_normal_force_does_no_work() {
             let arm = contact.points[1] / 0.7 - joint.pose(&at).position;
             for i in 0..5 {
                 let column = joint.subspace(&at, i);
-                let work = column.linear.dot(&contact.normal)
-                    + column.angular.dot(&arm.cross(&contact.normal));
+                let work =
+                    column.linear.dot(&contact.normal) + column.angular.dot(&arm.cross(&contact.normal));
                 assert!(work.abs() < 1e-13, "{i} {work}");
             }
         }
@@ -119,8 +120,7 @@ fn columns_are_the_dual_derivatives_of_the_position() {
             let (rotation, host) = (rows(&Touching::rotation(&at)), [at[4], at[5], at[6]]);
             let own = tangents(&law.hosting().normal(&host));
             for i in 0..5 {
-                let (omega, velocity) =
-                    if i < 3 { (law::axis(i), [0.0; 3]) } else { ([0.0; 3], own[i - 3]) };
+                let (omega, velocity) = if i < 3 { (law::axis(i), [0.0; 3]) } else { ([0.0; 3], own[i - 3]) };
                 let place = law.place(&turning(&rotation, &omega), &moving(&host, &velocity)).unwrap();
                 let column = Vector3::from(law.column(&rotation, &host, i).unwrap());
                 assert!((rates(&place.position()) - column).norm() < 1e-12, "{i}");
@@ -150,11 +150,11 @@ fn the_nearest_contact_is_found() {
 #[test]
 fn sizes_and_units_do_not_matter() {
     let small = |x: f64, y: f64, z: f64| axes(1e-3 * x, 1e-3 * y, 1e-3 * z);
-    let offset = |size: f64| {
-        Pose::new(exp(&Vector3::new(0.3, -0.2, 0.1)), Vector3::new(2.2, 0.9, 1.3) * size)
-    };
+    let offset =
+        |size: f64| Pose::new(exp(&Vector3::new(0.3, -0.2, 0.1)), Vector3::new(2.2, 0.9, 1.3) * size);
     let one = made(described(axes(1.1, 0.8, 1.5), axes(1.6, 1.2, 0.9), false, SLIDING), 1.0, &offset(1.0));
-    let other = made(described(small(1.1, 0.8, 1.5), small(1.6, 1.2, 0.9), false, SLIDING), 2e-2, &offset(1e-3));
+    let other =
+        made(described(small(1.1, 0.8, 1.5), small(1.6, 1.2, 0.9), false, SLIDING), 2e-2, &offset(1e-3));
     let (one, other) = (one.unwrap(), other.unwrap());
     let wanted = one.coordinates(&one.home());
     let (a, b) = (one.configuration(&wanted), other.configuration(&wanted));
