@@ -153,8 +153,30 @@ pub struct Surfaces {
     pub parent: Surface,
     /// The child lies inside the parent's surface and touches it from there.
     pub concave: bool,
+    /// How the child moves on the parent.
+    pub motion: SurfaceMotion,
+    /// First and last angle of a rolling motion, rad, with zero between them. Unused by sliding.
+    pub range: [f64; 2],
     /// Surfaces that are apart in the initial poses are brought together.
     pub close: bool,
+}
+
+/// How one surface moves on another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SurfaceMotion {
+    /// Freely, without friction.
+    Sliding,
+    /// Rolling without slip and without spin, by the part of `about` that lies in the tangent plane.
+    Rolling {
+        /// Axis of the turning, in F's axes.
+        about: Vector3<f64>,
+    },
+    /// Rolling without slip and without spin, with the contact travelling in the normal plane across `about`, which turns with
+    /// the contact normal: in the osculating plane.
+    Osculating {
+        /// Axis of the turning, in F's axes.
+        about: Vector3<f64>,
+    },
 }
 
 /// Surfaces in space, m.
@@ -172,4 +194,32 @@ pub enum Surface {
     },
     /// The plane z = 0 with the outside at z > 0.
     Plane,
+    /// A meridian turned about z.
+    Revolution {
+        /// Radius over z.
+        profile: RevolutionProfile,
+    },
+    /// Measured heights over an ellipsoid.
+    Heights {
+        /// Of the ellipsoid along x, y, z, m.
+        semi_axes: Vector3<f64>,
+        /// Measured points, m.
+        points: Vec<Vector3<f64>>,
+        /// Degree of the polynomial that is fitted to them.
+        degree: usize,
+    },
+}
+
+/// The radius of a surface of revolution over z. Where it ends at zero, the surface is closed by a pole.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RevolutionProfile {
+    /// (z, radius), m; joined by a C² cubic spline of the radius squared.
+    Points(Vec<[f64; 2]>),
+    /// radius(z).
+    Radius {
+        /// m, of z in m.
+        radius: Function,
+        /// First and last z, m.
+        range: [f64; 2],
+    },
 }

@@ -85,9 +85,14 @@ pub enum JointKind {
     /// A boundary of the child rolls and slides on one of the parent, in the plane across the axis, with x along the second
     /// axis; one coordinate.
     Rolling(RollingCoordinate),
-    /// A surface of the child touches one of the parent and slides on it without friction. Coordinates as of `Free`, of
-    /// which the contact leaves five independent.
+    /// A surface of the child touches one of the parent and slides on it without friction: the rotation vector from F to M,
+    /// and two parameters u, v of the contact. These are the parent's where the child's surface is curved outwards in both
+    /// directions, otherwise the child's: longitude and latitude of an ellipsoid or of heights (of the coordinates divided by
+    /// the semi-axes), longitude and z of a cylinder or a surface of revolution, x and y of a plane. All count as angles: those
+    /// that are lengths are numbers of metres, whose effort is in J/m.
     Contact,
+    /// A surface of the child rolls on one of the parent without slip and without spin, along a path; one angle.
+    SurfaceRolling,
 }
 
 impl JointKind {
@@ -95,10 +100,14 @@ impl JointKind {
     pub fn freedoms(self) -> usize {
         match self {
             JointKind::Weld => 0,
-            JointKind::Revolute | JointKind::Prismatic | JointKind::Rolling(_) => 1,
+            JointKind::Revolute
+            | JointKind::Prismatic
+            | JointKind::Rolling(_)
+            | JointKind::SurfaceRolling => 1,
             JointKind::Cylindrical | JointKind::Universal => 2,
             JointKind::Spherical | JointKind::Planar => 3,
-            JointKind::Free | JointKind::Contact => 6,
+            JointKind::Contact => 5,
+            JointKind::Free => 6,
         }
     }
 
@@ -113,9 +122,10 @@ impl JointKind {
             JointKind::Universal => &[Angle, Angle],
             JointKind::Spherical => &[Angle, Angle, Angle],
             JointKind::Planar => &[Length, Length, Angle],
-            JointKind::Free | JointKind::Contact => &[Length, Length, Length, Angle, Angle, Angle],
+            JointKind::Free => &[Length, Length, Length, Angle, Angle, Angle],
+            JointKind::Contact => &[Angle, Angle, Angle, Angle, Angle],
             JointKind::Rolling(RollingCoordinate::Arc) => &[Length],
-            JointKind::Rolling(_) => &[Angle],
+            JointKind::Rolling(_) | JointKind::SurfaceRolling => &[Angle],
         }
     }
 
@@ -129,7 +139,9 @@ impl JointKind {
             JointKind::Universal => &["first", "second"],
             JointKind::Spherical => &["x", "y", "z"],
             JointKind::Planar => &["x", "y", "angle"],
-            JointKind::Free | JointKind::Contact => &["x", "y", "z", "rx", "ry", "rz"],
+            JointKind::Free => &["x", "y", "z", "rx", "ry", "rz"],
+            JointKind::Contact => &["rx", "ry", "rz", "u", "v"],
+            JointKind::SurfaceRolling => &["angle"],
             JointKind::Rolling(RollingCoordinate::Turning) => &["turning"],
             JointKind::Rolling(RollingCoordinate::Angle) => &["angle"],
             JointKind::Rolling(RollingCoordinate::Arc) => &["arc"],

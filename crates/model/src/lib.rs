@@ -26,7 +26,8 @@ pub use beam::{Beam, BeamTheory, Curve, Distributed, End, LoadAxes, SectionFrame
 pub use body::{Body, Frame, Mount};
 pub use cable::{Cable, CableLaw, Guide};
 pub use contact::{
-    Boundary, BoundaryCurve, Contact, Rolling, RollingCoordinate, Side, Slide, Surface, Surfaces,
+    Boundary, BoundaryCurve, Contact, RevolutionProfile, Rolling, RollingCoordinate, Side, Slide, Surface,
+    SurfaceMotion, Surfaces,
 };
 pub use inverse::{Target, Unknown};
 pub use joint::{

@@ -286,7 +286,7 @@ impl Curve {
 /// A line's tangent has its outside, where the normal points, to the right.
 fn line(point: [f64; 2], normal: [f64; 2], range: Option<[f64; 2]>) -> Result<Contour, BoundaryError> {
     let size = normal[0].hypot(normal[1]);
-    if !(size.is_finite() && size > 0.0) || !point.iter().all(|x| x.is_finite()) {
+    if !(size.is_finite() && size > 0.0 && point.iter().all(|x| x.is_finite())) {
         return Err(BoundaryError::NoNormal);
     }
     let range = range.map(checked_range).transpose()?;

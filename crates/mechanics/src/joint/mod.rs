@@ -4,6 +4,7 @@
 //! moves when a coordinate moves. The wrench W that the parent exerts on the child at M's origin then
 //! satisfies Hᵀ W = τ.
 
+mod contact_error;
 mod cylindrical;
 mod free;
 mod planar;
@@ -11,12 +12,16 @@ mod prismatic;
 mod revolute;
 mod rolling;
 mod spherical;
+mod touching;
 mod universal;
 mod weld;
 
-pub use rolling::{ContactError, RollingLaw};
+pub use contact_error::ContactError;
+pub use rolling::RollingLaw;
+pub use touching::{RollingPath, TouchingLaw};
 
-use flexura_model::{Contact, JointKind, JointLaw};
+use flexura_geometry::ImplicitSurface;
+use flexura_model::{Contact, JointKind, JointLaw, SurfaceMotion, Surfaces};
 use flexura_spatial::{Pose, Twist, Vector3};
 use std::sync::Arc;
 
@@ -102,7 +107,15 @@ pub struct Joint {
     kind: JointKind,
     axis: Vector3<f64>,
     second_axis: Vector3<f64>,
-    rolling: Option<rolling::Rolling>,
+    contact: Option<Touch>,
+}
+
+/// What a joint needs that is more than axes.
+#[derive(Clone, Debug)]
+enum Touch {
+    Curves(rolling::Rolling),
+    Sliding(touching::Touching),
+    Path(touching::Path),
 }
 
 impl Joint {
@@ -112,26 +125,47 @@ impl Joint {
     /// # Errors
     /// A contact that makes no sense.
     pub fn new(law: &JointLaw, unit: f64, offset: &Pose) -> Result<Self, ContactError> {
-        let rolling = match (law.kind, law.contact.as_deref()) {
+        let contact = match (law.kind, law.contact.as_deref()) {
             (JointKind::Rolling(coordinate), Some(Contact::Rolling(contact))) => {
                 let (axis, x) = (law.axis, law.second_axis);
                 let (position, angle) = rolling::in_plane(offset, &axis, &x);
                 let law = Arc::new(RollingLaw::new(contact, coordinate, position, angle)?);
-                Some(rolling::Rolling { law, axis, x, unit })
+                Some(Touch::Curves(rolling::Rolling { law, axis, x, unit }))
+            }
+            (JointKind::Contact | JointKind::SurfaceRolling, Some(Contact::Surfaces(surfaces))) => {
+                Some(Touch::new(surfaces, unit, offset)?)
             }
             _ => None,
         };
-        Ok(Self { kind: law.kind, axis: law.axis, second_axis: law.second_axis, rolling })
+        Ok(Self { kind: law.kind, axis: law.axis, second_axis: law.second_axis, contact })
     }
 
     /// Values of the coordinate between which a rolling joint is in contact; in the joint's units.
     pub fn range(&self) -> Option<[f64; 2]> {
-        self.rolling.as_ref().map(rolling::Rolling::range)
+        match &self.contact {
+            Some(Touch::Curves(rolling)) => Some(rolling.range()),
+            Some(Touch::Path(path)) => Some(path.range()),
+            Some(Touch::Sliding(_)) | None => None,
+        }
     }
 
-    /// Where and how a rolling joint touches; None of others, and beyond its range.
+    /// Where and how a joint of two boundaries touches; None of others, and beyond the boundaries' ends.
     pub fn contact(&self, configuration: &Configuration) -> Option<ContactState> {
-        self.rolling.as_ref().and_then(|rolling| rolling.contact(configuration))
+        match &self.contact {
+            Some(Touch::Curves(rolling)) => rolling.contact(configuration),
+            Some(Touch::Sliding(touching)) => touching.contact(configuration),
+            Some(Touch::Path(path)) => path.contact(configuration),
+            None => None,
+        }
+    }
+
+    /// The surfaces of child and parent that touch.
+    pub fn surfaces(&self) -> Option<[&ImplicitSurface; 2]> {
+        match &self.contact {
+            Some(Touch::Sliding(touching)) => Some(touching.law.surfaces()),
+            Some(Touch::Path(path)) => Some(path.law.surfaces()),
+            Some(Touch::Curves(_)) | None => None,
+        }
     }
 
     /// Number of coordinates.
@@ -148,13 +182,30 @@ impl Joint {
             JointKind::Universal => f(&universal::Universal { first: self.axis, second: self.second_axis }),
             JointKind::Spherical => f(&spherical::Spherical),
             JointKind::Planar => f(&planar::Planar { normal: self.axis, x: self.second_axis }),
-            JointKind::Free | JointKind::Contact => f(&free::Free),
-            JointKind::Rolling(_) => match &self.rolling {
-                Some(rolling) => f(rolling),
+            JointKind::Free => f(&free::Free),
+            JointKind::Rolling(_) | JointKind::Contact | JointKind::SurfaceRolling => match &self.contact {
+                Some(Touch::Curves(rolling)) => f(rolling),
+                Some(Touch::Sliding(touching)) => f(touching),
+                Some(Touch::Path(path)) => f(path),
                 // A model that is sound has a law here.
                 None => f(&weld::Weld),
             },
         }
+    }
+}
+
+impl Touch {
+    fn new(surfaces: &Surfaces, unit: f64, offset: &Pose) -> Result<Self, ContactError> {
+        Ok(match surfaces.motion {
+            SurfaceMotion::Sliding => {
+                let law = Arc::new(TouchingLaw::new(surfaces)?);
+                Touch::Sliding(touching::Touching::new(law, unit, offset)?)
+            }
+            SurfaceMotion::Rolling { .. } | SurfaceMotion::Osculating { .. } => {
+                let law = Arc::new(RollingPath::new(surfaces, offset)?);
+                Touch::Path(touching::Path { law, unit })
+            }
+        })
     }
 }
 

@@ -12,9 +12,9 @@
 //!
 //! so that dα = κ_A da + ε κ_B db, and the child's point in contact moves by -ε T_B (da - db): not at all without slip.
 
-use super::error::ContactError;
 use super::touch;
 use super::travel::{Jet, Slip, Travel, outwards};
+use crate::joint::ContactError;
 use flexura_geometry::{Contour, ContourPoint};
 use flexura_model::{Rolling, RollingCoordinate};
 use std::f64::consts::{PI, TAU};

@@ -1,12 +1,10 @@
 //! A boundary of the child that rolls and slides on one of the parent, in a plane: the thesis's bio-joint in its planar
 //! form (Chapter III), with the arc lengths matched exactly.
 
-mod error;
 mod law;
 mod touch;
 mod travel;
 
-pub use error::ContactError;
 pub use law::RollingLaw;
 
 use super::{Configuration, ContactState, Kinematics, MAX_FREEDOMS};

@@ -1,6 +1,6 @@
 //! Rolling joints against the thesis's examples, and their derivatives.
 
-use super::super::{Joint, Kinematics};
+use super::super::{ContactError, Joint, Kinematics};
 use super::*;
 use flexura_model::{
     Boundary, BoundaryCurve, Contact, JointKind, JointLaw, Rolling as Description, RollingCoordinate, Slide,

@@ -81,7 +81,7 @@ fn refine(
     angle: f64,
     mut at: [f64; 2],
     size: f64,
-    misfit: &dyn Fn(&ContourPoint, &ContourPoint) -> (f64, f64, [f64; 2]),
+    misfit: &impl Fn(&ContourPoint, &ContourPoint) -> (f64, f64, [f64; 2]),
 ) -> Option<(f64, [f64; 2])> {
     for _ in 0..60 {
         let (a, b) = (child.at(at[0])?, parent.at(at[1])?);

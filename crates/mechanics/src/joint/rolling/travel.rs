@@ -4,7 +4,7 @@
 //! b = a - S(q); where roll and slide keep a ratio ρ, b = a ρ/(1 + ρ); where the contact stays on the parent, b = 0. All
 //! are b = c a - S(q).
 
-use super::error::ContactError;
+use crate::joint::ContactError;
 use flexura_expression::Function;
 use flexura_geometry::FunctionSpline;
 use flexura_model::{RollingCoordinate, Slide};
@@ -93,7 +93,8 @@ impl Slip {
                 let spline = FunctionSpline::new(rows).ok_or(ContactError::SlideTable)?;
                 let at_zero = spline.jet(0.0)[0];
                 let size = rows.iter().map(|[_, y]| y.abs()).fold(f64::MIN_POSITIVE, f64::max);
-                if !(at_zero.abs() <= 1e-9 * size) {
+                let starts_at_zero = at_zero.abs() <= 1e-9 * size;
+                if !starts_at_zero {
                     return Err(ContactError::TravelAtZero { which: "slide", value: at_zero });
                 }
                 relative(1.0, Offset::Spline(spline))

@@ -1,8 +1,8 @@
-//! What can be wrong with a rolling joint.
+//! What can be wrong with a joint of two boundaries: curves that roll in a plane, or surfaces that touch in space.
 
-use flexura_geometry::BoundaryError;
+use flexura_geometry::{BoundaryError, SurfaceError};
 
-/// A rolling joint that cannot be used.
+/// A rolling or contact joint that cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ContactError {
     /// A boundary that is none.
@@ -73,5 +73,42 @@ pub enum ContactError {
     Conforming {
         /// The coordinate's name.
         coordinate: &'static str,
+    },
+    /// A surface that is none.
+    #[error("{source}")]
+    Surface {
+        /// "child" or "parent".
+        which: &'static str,
+        /// What is wrong with it.
+        source: SurfaceError,
+    },
+    /// Two surfaces that may touch along a line.
+    #[error("at least one of the two surfaces must be curved in both directions")]
+    NoneRounded,
+    /// A hollow, a saddle or a waist into which the child does not fit.
+    #[error(
+        "where the surfaces could touch first they would cut into each other: the sum of their curvatures is {curvature} 1/m in one direction and must be positive in all"
+    )]
+    Cuts {
+        /// The smallest sum of the curvatures of child and parent, 1/m.
+        curvature: f64,
+    },
+    /// An axis that is none.
+    #[error("the axis that a surface rolls about must be finite and other than zero")]
+    NoAxis,
+    /// Turning about the normal is spin, not rolling.
+    #[error(
+        "the axis that the surface rolls about is along the normal of the first contact, about which it would spin"
+    )]
+    AxisAlongNormal,
+    /// The coordinate must be able to be zero.
+    #[error(
+        "the range of a rolling surface must lead from a negative angle, or zero, to a positive one, but is {from} to {to} rad"
+    )]
+    RollingRange {
+        /// First angle, rad.
+        from: f64,
+        /// Last angle, rad.
+        to: f64,
     },
 }
