@@ -491,6 +491,11 @@ impl System for Equilibrium {
             largest = largest.max(turn.norm());
         }
         for (coordinates, slot) in self.coordinate_slots() {
+            if coordinates.kind == JointKind::Contact && slot.count >= 3 {
+                // Of a contact the first three are.
+                let turn: f64 = step[slot.unknown..slot.unknown + 3].iter().map(|s| s * s).sum();
+                largest = largest.max(turn.sqrt());
+            }
             // Of a ball and of a free joint the last three coordinates are a turning.
             if matches!(coordinates.kind, JointKind::Spherical | JointKind::Free) && slot.count > 0 {
                 let last = slot.unknown + slot.count;

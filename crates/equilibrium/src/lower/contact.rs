@@ -32,6 +32,16 @@ pub(super) fn problem(joint: &Joint, error: &ContactError) -> ProblemError {
         | ContactError::VelocityByArc
         | ContactError::SlideNumber { .. }
         | ContactError::SlideTable => ("slide", "see the reference page on rolling joints"),
+        ContactError::Surface { which: "child", .. } => ("child_surface", "mend the child's surface"),
+        ContactError::Surface { .. } => ("parent_surface", "mend the parent's surface"),
+        ContactError::NoneRounded => {
+            ("child_surface", "give one of the two a small curvature in its straight direction: an ellipsoid")
+        }
+        ContactError::Cuts { .. } => ("concave", "make the hollow wider than the child, in both directions"),
+        ContactError::NoAxis | ContactError::AxisAlongNormal => {
+            ("about", "give an axis across the normal of the contact")
+        }
+        ContactError::RollingRange { .. } => ("range", "for example `range = [\"-90 deg\", \"90 deg\"]`"),
         ContactError::Conforming { .. } => (
             "slide",
             "give the two different curvatures, or let them only slide: `slide = { kind = \"pure\" }`",

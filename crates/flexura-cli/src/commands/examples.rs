@@ -42,6 +42,8 @@ const MODELS: &[(&str, &str)] = &bundled![
     "rolling_beam",
     "cam_follower",
     "clearance_pin",
+    "coracoid_keel",
+    "ellipsoid_in_dish",
     "wing_ligaments",
     "bistable_beam",
     "lee_frame",

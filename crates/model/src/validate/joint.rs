@@ -2,7 +2,10 @@
 
 use super::Issues;
 use super::beam::known_length;
-use crate::{At, BeamId, BeamPoint, CoordinateLaw, Drive, Joint, JointKind, JointLaw, Model, Mount};
+use crate::{
+    At, BeamId, BeamPoint, Contact, CoordinateLaw, Drive, Joint, JointKind, JointLaw, Model, Mount,
+    SurfaceMotion,
+};
 use flexura_spatial::Vector3;
 
 /// Axes count as perpendicular up to this cosine.
@@ -64,6 +67,7 @@ impl Model {
                 let turning = match joint.law.kind {
                     JointKind::Spherical => true,
                     JointKind::Free => term.coordinate >= 3,
+                    JointKind::Contact => true,
                     _ => false,
                 };
                 if law.is_none() {
@@ -139,13 +143,20 @@ impl Model {
 
 pub(super) fn check_law(law: &JointLaw, path: &str, issues: &mut Issues) {
     let unit = |axis: &Vector3<f64>| (axis.norm() - 1.0).abs() <= 1e-9;
-    let has_axis = !matches!(law.kind, JointKind::Weld | JointKind::Spherical | JointKind::Free);
+    let has_axis = !matches!(
+        law.kind,
+        JointKind::Weld
+            | JointKind::Spherical
+            | JointKind::Free
+            | JointKind::Contact
+            | JointKind::SurfaceRolling
+    );
     if has_axis && !unit(&law.axis) {
         issues.add(format!("{path}.axis"), "the axis must be a unit vector");
     }
     let second = match law.kind {
         JointKind::Universal => Some("second_axis"),
-        JointKind::Planar => Some("x_axis"),
+        JointKind::Planar | JointKind::Rolling(_) => Some("x_axis"),
         _ => None,
     };
     if let Some(second) = second {
@@ -155,6 +166,18 @@ pub(super) fn check_law(law: &JointLaw, path: &str, issues: &mut Issues) {
             issues.add(format!("{path}.{second}"), "must be at right angles to `axis`");
         }
     }
+    let fits = match (law.kind, law.contact.as_deref()) {
+        (JointKind::Rolling(_), Some(Contact::Rolling(_))) => true,
+        (JointKind::Contact, Some(Contact::Surfaces(surfaces))) => surfaces.motion == SurfaceMotion::Sliding,
+        (JointKind::SurfaceRolling, Some(Contact::Surfaces(surfaces))) => {
+            surfaces.motion != SurfaceMotion::Sliding
+        }
+        (JointKind::Rolling(_) | JointKind::Contact | JointKind::SurfaceRolling, _) => false,
+        (_, contact) => contact.is_none(),
+    };
+    if !fits {
+        issues.add(path, "what touches what does not belong to this kind of joint");
+    }
     if law.coordinates.len() != law.kind.freedoms() {
         let (found, expected) = (law.coordinates.len(), law.kind.freedoms());
         issues.add(path, format!("needs the laws of {expected} coordinates, found {found}"));
@@ -162,6 +185,7 @@ pub(super) fn check_law(law: &JointLaw, path: &str, issues: &mut Issues) {
     for (i, coordinate) in law.coordinates.iter().enumerate() {
         let path = match (law.kind, law.kind.coordinate_names().get(i)) {
             (JointKind::Free, _) if i >= 3 => format!("{path}.rotation"),
+            (JointKind::Contact, _) => format!("{path}.rotation"),
             (JointKind::Spherical, _) | (_, None) => path.to_string(),
             (_, Some(_)) if law.coordinates.len() == 1 => path.to_string(),
             (_, Some(name)) => format!("{path}.{name}"),

@@ -150,7 +150,7 @@ fn plane_points(reader: &Reader<'_, '_>) -> Read<Vec<[f64; 2]>> {
 }
 
 /// Rows of two numbers.
-fn pairs(reader: &Reader<'_, '_>, name: &str, dimensions: [Dimension; 2]) -> Read<Vec<[f64; 2]>> {
+pub(super) fn pairs(reader: &Reader<'_, '_>, name: &str, dimensions: [Dimension; 2]) -> Read<Vec<[f64; 2]>> {
     let (entry, key) = reader.entry(name).ok_or(Reported)?;
     let path = reader.key_path(name);
     let Value::List(list) = &entry.node.value else {

@@ -198,7 +198,7 @@ impl Relation<'_, '_> {
                     span,
                 ));
             }
-            JointKind::Spherical => return Err(no_vector()),
+            JointKind::Spherical | JointKind::Contact => return Err(no_vector()),
             JointKind::Free => {
                 let turning = |part: &str| part.starts_with('r');
                 if let Some((Segment::Name(part), _)) = reference.segments.get(2)

@@ -132,7 +132,7 @@ pub(super) fn frame(reader: &Reader<'_, '_>) -> Read<SectionFrame> {
     }
 }
 
-fn points(reader: &Reader<'_, '_>) -> Read<Curve> {
+pub(super) fn points(reader: &Reader<'_, '_>) -> Read<Curve> {
     match (reader.entry("points"), reader.text("file")?) {
         (Some((entry, key)), None) => {
             if reader.has("unit") {

@@ -2,6 +2,7 @@
 
 use super::contact;
 use super::place::frame;
+use super::surface;
 use crate::context::{Needed, Read, Reported};
 use crate::format::Shape;
 use crate::reader::Reader;
@@ -73,6 +74,7 @@ pub(super) fn law(reader: &Reader<'_, '_>) -> Read<JointLaw> {
         "planar" => two_axes(reader, JointKind::Planar, "x_axis"),
         "free" => free(reader),
         "rolling" => contact::rolling(reader),
+        "contact" => surface::touching(reader),
         _ => Err(Reported),
     }
 }
@@ -190,7 +192,7 @@ pub(super) fn coordinate(reader: &Reader<'_, '_>) -> Read<CoordinateLaw> {
 }
 
 /// What acts on the three components of a rotation vector.
-fn rotation_vector(reader: &Reader<'_, '_>) -> Read<Vec<CoordinateLaw>> {
+pub(super) fn rotation_vector(reader: &Reader<'_, '_>) -> Read<Vec<CoordinateLaw>> {
     let coordinate = reader.vector("coordinate");
     let effort = reader.vector("effort");
     let stiffness = reader.number("stiffness");

@@ -14,6 +14,7 @@ mod place;
 mod result;
 mod spring;
 mod study;
+mod surface;
 mod tubes;
 mod unknown;
 

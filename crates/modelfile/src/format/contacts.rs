@@ -249,3 +249,103 @@ pub(crate) static SLIDE: Table = Table {
         ],
     }),
 };
+
+const SEMI_AXES: Key = key(
+    "semi_axes",
+    Shape::Vector(D::LENGTH),
+    Required,
+    "[\"9.2 mm\", \"3.1 mm\", \"2.3 mm\"]",
+    "Along x, y and z.",
+);
+
+pub(crate) static SURFACE: Table = Table {
+    doc: "The surface of a body, about the origin of its frame.",
+    keys: &[],
+    variants: Some(Variants {
+        by: "kind",
+        by_doc: "The surface.",
+        default: None,
+        list: &[
+            variant("ellipsoid", "With its axes along x, y and z.", &[SEMI_AXES]),
+            variant(
+                "sphere",
+                "About the origin.",
+                &[key("radius", Shape::Number(D::LENGTH), Required, "\"12 mm\"", "Its radius.")],
+            ),
+            variant(
+                "cylinder",
+                "Elliptic, along z, without end.",
+                &[key(
+                    "semi_axes",
+                    Shape::Range(D::LENGTH),
+                    Required,
+                    "[\"2.6 mm\", \"6.6 mm\"]",
+                    "Along x and y.",
+                )],
+            ),
+            variant("plane", "z = 0, with the outside at positive z.", &[]),
+            variant(
+                "revolution",
+                "A meridian turned about z; where its radius ends at zero the surface has a pole. Give `points`, or `radius` with `range`.",
+                &[
+                    key(
+                        "points",
+                        Shape::Pairs,
+                        Optional,
+                        "[[\"-5 mm\", 0], [\"-2 mm\", \"3 mm\"], [\"1 mm\", \"3.5 mm\"], [\"5 mm\", 0]]",
+                        "Rows of z and radius, z increasing, joined by a C2 spline of the radius squared.",
+                    ),
+                    key(
+                        "radius",
+                        Shape::Function(D::LENGTH),
+                        Optional,
+                        "\"4 mm - 20 1/m*z^2\"",
+                        "The radius as an expression of `z`.",
+                    ),
+                    key(
+                        "range",
+                        Shape::Range(D::LENGTH),
+                        Optional,
+                        "[\"-5 mm\", \"5 mm\"]",
+                        "First and last z of the expression.",
+                    ),
+                ],
+            ),
+            variant(
+                "heights",
+                "Measured points over an ellipsoid, to which a smooth surface is fitted.",
+                &[
+                    SEMI_AXES,
+                    key(
+                        "points",
+                        Shape::Points,
+                        Optional,
+                        "[[\"9 mm\", 0, 0], [0, \"3 mm\", 0]]",
+                        "The points. Give them here or in a file.",
+                    ),
+                    key(
+                        "file",
+                        Shape::Text,
+                        Optional,
+                        "\"condyle.csv\"",
+                        "A CSV file with the columns x, y, z, beside the model file.",
+                    ),
+                    key(
+                        "unit",
+                        Shape::Text,
+                        Default("\"m\""),
+                        "\"mm\"",
+                        "The unit of the numbers in the file.",
+                    ),
+                    key(
+                        "degree",
+                        Shape::Count,
+                        Default("4"),
+                        "6",
+                        "Degree of the polynomial in x, y and z that is fitted by least squares.",
+                    ),
+                ],
+            ),
+        ],
+    }),
+};

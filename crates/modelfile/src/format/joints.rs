@@ -1,6 +1,6 @@
 //! Tables of joints and of the holds of beam ends: kinds, coordinates, and the places that they connect.
 
-use super::contacts::{BOUNDARY, SLIDE};
+use super::contacts::{BOUNDARY, SLIDE, SURFACE};
 use super::tables::{key, table, variant};
 use super::{Key, Named, Need, Shape, Table, Variants};
 use Need::{Default, Optional, Required};
@@ -265,6 +265,62 @@ const ROLLING: &[Key] = angle_keys!(
         "Bodies that do not touch in the initial poses are brought together.",
     )
 );
+const CONTACT: &[Key] = angle_keys!(
+    key(
+        "child_surface",
+        Shape::Table(&SURFACE),
+        Required,
+        "{ kind = \"ellipsoid\", semi_axes = [\"9.2 mm\", \"3.1 mm\", \"2.3 mm\"] }",
+        "The moving surface, in the child's frame.",
+    ),
+    key(
+        "parent_surface",
+        Shape::Table(&SURFACE),
+        Required,
+        "{ kind = \"sphere\", radius = \"12 mm\" }",
+        "The fixed surface, in the parent's frame.",
+    ),
+    key(
+        "concave",
+        Shape::Flag,
+        Default("false"),
+        "true",
+        "The child lies within the parent's surface and touches it from there.",
+    ),
+    key(
+        "motion",
+        Shape::Choice(&[
+            ("sliding", "Free, without friction: the contact carries a normal force only."),
+            ("rolling", "Without slip and spin about a given axis; one angle."),
+            ("osculating", "Without slip and spin, the contact travelling across a given axis; one angle."),
+        ]),
+        Default("\"sliding\""),
+        "\"rolling\"",
+        "How the child moves on the parent. One that rolls has an angle, which the joint's own keys drive or load.",
+    ),
+    key(
+        "about",
+        Shape::Vector(D::NUMBER),
+        Optional,
+        "[0, 1, 0]",
+        "Of a rolling motion: the axis, in the fixed frame. Its part along the normal is left out.",
+    ),
+    key(
+        "range",
+        Shape::Range(D::ANGLE),
+        Default("half a turn both ways"),
+        "[\"-60 deg\", \"60 deg\"]",
+        "Of a rolling motion: least and greatest angle.",
+    ),
+    ball("rotation", "Of a sliding motion: the rotation vector from the fixed to the moving frame."),
+    key(
+        "close",
+        Shape::Flag,
+        Default("false"),
+        "true",
+        "Bodies that do not touch in the initial poses are brought together.",
+    )
+);
 const FREE: &[Key] = &[
     length("x", "Along the fixed frame's x."),
     length("y", "Along the fixed frame's y."),
@@ -392,6 +448,11 @@ pub(crate) static JOINT: Table = Table {
                 "rolling",
                 "A boundary of the child rolls and slides on one of the parent, in a plane; a child without a place has its boundary about its origin.",
                 ROLLING,
+            ),
+            variant(
+                "contact",
+                "A surface of the child touches one of the parent; a child without a place has its surface about its origin. The first contact is found from the initial poses.",
+                CONTACT,
             ),
         ],
     }),

@@ -79,7 +79,7 @@ pub fn joint(canvas: &mut Canvas, panel: &Panel, joint: &JointMark) {
     match (joint.kind, along) {
         (JointKind::Weld, _) => {}
         // The boundaries themselves are drawn; this is where they touch.
-        (JointKind::Rolling(_) | JointKind::Contact, _) => {
+        (JointKind::Rolling(_) | JointKind::Contact | JointKind::SurfaceRolling, _) => {
             canvas.circle(at, 2.6, LOAD, &Style::line("#ffffff", 0.8))
         }
         // It holds nothing, but what it measures and what springs it may carry is measured from here.
@@ -175,7 +175,7 @@ pub fn body(
         let at = panel.point(&joint.point);
         let bare = matches!(joint.kind, JointKind::Weld | JointKind::Free | JointKind::Prismatic);
         !bare
-            && !matches!(joint.kind, JointKind::Rolling(_) | JointKind::Contact)
+            && !matches!(joint.kind, JointKind::Rolling(_) | JointKind::Contact | JointKind::SurfaceRolling)
             && (at[0] - now[0]).hypot(at[1] - now[1]) < 4.0
     });
     if !is_covered {

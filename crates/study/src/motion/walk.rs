@@ -374,6 +374,7 @@ fn unwrapped(model: &Model, mut along: Vec<Vec<Vec<f64>>>) -> Vec<Vec<Vec<f64>>>
     let turning = |kind: JointKind| match kind {
         JointKind::Spherical => Some(0),
         JointKind::Free => Some(3),
+        JointKind::Contact => Some(0),
         _ => None,
     };
     for (j, joint) in model.joints.iter().enumerate() {

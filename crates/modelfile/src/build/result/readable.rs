@@ -107,7 +107,10 @@ pub(in crate::build) fn coordinates(kind: JointKind) -> Vec<Readable> {
         return vec![vector("coordinate", Quantity::Coordinate, Dimension::ANGLE)];
     }
     let mut list = Vec::new();
-    for (i, (name, kind)) in kind.coordinate_names().iter().zip(kind.coordinate_kinds()).enumerate() {
+    // Where a contact is on a surface is read off as a point: what its parameters are depends on the surface.
+    let count = if kind == JointKind::Contact { 3 } else { kind.freedoms() };
+    let each = kind.coordinate_names().iter().zip(kind.coordinate_kinds()).take(count);
+    for (i, (name, kind)) in each.enumerate() {
         let dimension = match kind {
             CoordinateKind::Angle => Dimension::ANGLE,
             CoordinateKind::Length => Dimension::LENGTH,
