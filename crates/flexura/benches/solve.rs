@@ -44,6 +44,7 @@ fn cantilever(shape: Shape, curve: Curve, theory: BeamTheory, start: Pose, force
         start: Some(End { mount: Mount::Ground, placement: Some(start), hold: JointLaw::weld() }),
         end: None,
         distributed: Vec::new(),
+        foundation: Vec::new(),
     });
     model.loads.push(Load {
         name: "tip".into(),

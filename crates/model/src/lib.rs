@@ -8,6 +8,7 @@
 mod beam;
 mod body;
 mod cable;
+mod foundation;
 mod inverse;
 mod joint;
 mod load;
@@ -22,6 +23,7 @@ mod validate;
 pub use beam::{Beam, BeamTheory, Curve, Distributed, End, LoadAxes, SectionFrame};
 pub use body::{Body, Frame, Mount};
 pub use cable::{Cable, CableLaw, Guide};
+pub use foundation::{Foundation, FoundationLaw};
 pub use inverse::{Target, Unknown};
 pub use joint::{
     CoordinateKind, CoordinateLaw, Coupling, CouplingTerm, Drive, Joint, JointKind, JointLaw, Limits, across,

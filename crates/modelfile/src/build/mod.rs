@@ -5,6 +5,7 @@ mod body;
 mod cable;
 mod coupling;
 mod curve;
+mod foundation;
 mod joint;
 mod load;
 mod material;

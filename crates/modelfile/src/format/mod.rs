@@ -4,6 +4,7 @@
 //! is needed, and give an example. What a builder does with the values is not said here.
 
 mod attachments;
+mod foundation;
 mod joints;
 mod relations;
 mod sections;

@@ -67,6 +67,7 @@ pub fn mechanism(draw: &Draw) -> Model {
         start,
         end,
         distributed: Vec::new(),
+        foundation: Vec::new(),
     };
     let full = BeamTheory { shear: true, extension: true };
     let mut mast = beam(
