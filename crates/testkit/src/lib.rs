@@ -11,6 +11,7 @@ pub mod collocation;
 pub mod columns;
 pub mod elastica;
 pub mod elliptic;
+pub mod foundation;
 pub mod helix;
 pub mod ivp;
 pub mod lateral;
