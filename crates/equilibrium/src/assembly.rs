@@ -155,6 +155,14 @@ impl Equilibrium {
                 let size = |v: &[f64; 3]| V::from(*v).norm();
                 level.force = level.force.max(size(&start.force)).max(size(&end.state.force));
                 level.moment = level.moment.max(size(&start.moment)).max(size(&end.state.moment));
+                let law = &self.lowered.beams[self.lowered.spans[span].beam];
+                if law.founded.is_nonlinear() {
+                    let last = segment.last().map_or(mesh.start_of(k), |stretch| stretch.s[1]);
+                    for (s, state) in [(mesh.start_of(k), &start), (last, &end.state)] {
+                        let [up, down] = law.foundation_slopes(s, &V::from(state.position));
+                        level.foundation = level.foundation.max(up - down);
+                    }
+                }
                 if k + 1 < mesh.segments.len() {
                     let next = self.inner_state(self.layout.spans[span].inner[k].state);
                     gaps[k] = gap(&end.state, &next);

@@ -1,6 +1,7 @@
 //! The law of one beam at any place along it, and pieces of it that can be integrated.
 
 use crate::error::ProblemError;
+use crate::foundation::Founded;
 use crate::scale::Scale;
 use flexura_geometry::{Compliance, RestShape, compliance, is_uniform, mass_per_length, section_breaks};
 use flexura_mechanics::ode::{NODES, STAGES};
@@ -45,9 +46,12 @@ pub(crate) struct BeamLaw {
     loaded: bool,
     loads_uniform: bool,
     coupled: bool,
+    pub founded: Founded,
     pub scale: Scale,
     /// Softest and stiffest of the bending and torsional compliances found on a scan, SI.
     pub softest: f64,
+    /// Largest of the compliances in stretching and shear, SI.
+    yielding: f64,
     /// Nondimensional units of force and moment of this beam, EI/L² and EI/L of its softest bending.
     pub wrench_unit: [f64; 2],
 }
@@ -74,6 +78,8 @@ impl BeamLaw {
             gravity: model.gravity,
             scale: Scale { length: 1.0, force: 1.0 },
             softest: 0.0,
+            yielding: 0.0,
+            founded: Founded::new(&beam, length)?,
             wrench_unit: [1.0; 2],
             shape,
             length,
@@ -104,6 +110,7 @@ impl BeamLaw {
                     ));
                 }
             }
+            self.yielding = self.yielding.max(c[(0, 0)]).max(c[(1, 1)]).max(c[(2, 2)]);
             self.softest = self.softest.max(c[(4, 4)]).max(c[(5, 5)]).max(c[(3, 3)]);
             self.coupled |= matches!(law.compliance, Compliance::Full(_));
             let load = self.load_at(s);
@@ -170,6 +177,7 @@ impl BeamLaw {
                 breaks.extend(profile.breaks(self.length));
             }
         }
+        breaks.extend(self.founded.breaks(self.length));
         breaks.retain(|s| *s > 0.0 && *s < self.length);
         breaks.sort_by(f64::total_cmp);
         breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-13 * self.length);
@@ -250,7 +258,8 @@ impl BeamLaw {
         } else {
             Vec::new()
         };
-        Piece { length: (b - a) / self.scale.length, steps, laws: self.table(&laws), loads }
+        let foundation = self.foundation(a, b, steps);
+        Piece { length: (b - a) / self.scale.length, steps, laws: self.table(&laws), loads, foundation }
     }
 
     fn table(&self, laws: &[LocalLaw]) -> LawTable {
@@ -311,6 +320,11 @@ impl BeamLaw {
             .map(|i| self.shape.curvature(a + (b - a) * (i as f64 + 1e-9) / (n as f64 + 2e-9)).norm())
             .fold(0.0, f64::max)
             * self.scale.length
+    }
+
+    /// Largest of the compliances in stretching and shear, nondimensional.
+    pub fn yields(&self) -> f64 {
+        self.yielding * self.scale.force
     }
 
     /// Largest of the compliances in bending and torsion, nondimensional.

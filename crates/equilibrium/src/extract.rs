@@ -46,7 +46,7 @@ impl Equilibrium {
         for beam in 0..self.model.beams.len() {
             if !energies && !wanted(beam) {
                 let length = self.lowered.beams[beam].length;
-                beams.push(BeamSolution { samples: Vec::new(), length });
+                beams.push(BeamSolution { length, ..BeamSolution::default() });
                 continue;
             }
             let (solution, strain_energy) = self.sample_beam(beam, samples.max(2), energies);

@@ -2,7 +2,7 @@
 //!
 //! Nodes and coordinates act through the start's pose alone. So the kernel carries at most the derivatives along
 //! the six motions of that pose and the six numbers of the wrench, and the rest is their combination. Where nothing along
-//! the segment has a direction of its own (no dead load), not even the motions are carried: a rod that is moved
+//! the segment has a direction of its own (no dead load, no foundation), not even the motions are carried: a rod that is moved
 //! with its wrench moves as a whole, so the change with the wrench standing still is the rigid motion less what turning
 //! the wrench does. A tendon goes with its sections, and its length does not change when they move as a whole.
 
@@ -39,7 +39,8 @@ impl Equilibrium {
         let directed = dead(first)
             || segment.iter().any(|stretch| {
                 let loads = &stretch.piece.loads;
-                dead(&stretch.jumps)
+                stretch.piece.foundation.is_some()
+                    || dead(&stretch.jumps)
                     || loads.iter().any(|l| l.dead_force != [0.0; 3] || l.dead_moment != [0.0; 3])
             });
         let mut columns = [[0.0; 12]; MAX_COLUMNS];

@@ -27,6 +27,7 @@ mod couplings;
 mod diagnose;
 mod error;
 mod extract;
+mod foundation;
 mod head;
 mod held;
 mod layout;

@@ -33,6 +33,8 @@ pub(crate) struct Level {
     pub moment: f64,
     /// Σ T d of the tendons: the moment by which they bend the beam itself, beside that of the whole section.
     pub tendons: f64,
+    /// Stiffness of foundations whose law is not linear, at the displacements met.
+    pub foundation: f64,
 }
 
 /// Exponent by which a segment may let its start grow.
@@ -43,15 +45,19 @@ const CONSTANT: f64 = 3e-9;
 const MOST_STEPS: usize = 100_000;
 /// A step never turns a section further than this, however loose the accuracy.
 const LARGEST_TURN: f64 = 2.2;
+/// Segments of a span on a foundation that is not linear: their ends show how stiff it has become.
+const SAMPLED: usize = 8;
 
 impl Level {
     /// Turning per nondimensional length at this level: bending by the moment, and the rate √(F/EI) of the
-    /// exponentials and sines along a loaded beam.
+    /// exponentials and sines along a loaded beam. On a foundation of stiffness k those of EI d⁴y/ds⁴ = -k y and of
+    /// EA d²u/ds² = k u join them, with the rates (k/EI)^¼ and √(k/EA).
     fn rate(&self, law: &BeamLaw, span: &Span, s: [f64; 2]) -> f64 {
         let soft = law.soft();
         let winding = span.channels.iter().filter(|c| c.holds(s)).map(|c| c.rate).fold(0.0, f64::max);
         let bend = law.rest_rate(s[0], s[1]) + (self.moment + self.tendons) * soft + winding;
-        (bend * bend + self.force * soft).sqrt()
+        let push = law.foundation_stiffness(s) + self.foundation;
+        (bend * bend + self.force * soft + (push * soft).sqrt() + push * law.yields()).sqrt()
     }
 
     pub fn segments(&self, law: &BeamLaw, span: &Span) -> usize {
@@ -59,8 +65,11 @@ impl Level {
             return 1;
         }
         let length = (span.s[1] - span.s[0]) / law.scale.length;
-        let exponent = length * (self.force * law.soft()).sqrt();
-        ((exponent / GROWTH).ceil() as usize).clamp(1, 100_000)
+        let push = law.foundation_stiffness(span.s) + self.foundation;
+        let bending = (self.force * law.soft()).sqrt() + (0.25 * push * law.soft()).powf(0.25);
+        let exponent = length * bending.max((push * law.yields()).sqrt());
+        let least = if law.founded.is_nonlinear() { SAMPLED } else { 1 };
+        ((exponent / GROWTH).ceil() as usize).clamp(least, 100_000)
     }
 
     /// Steps for a stretch to have an error of about `accuracy`.

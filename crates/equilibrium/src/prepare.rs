@@ -31,8 +31,11 @@ impl Equilibrium {
         self.levels = self.lowered.spans.iter().map(|span| self.expected_level(span)).collect();
         self.expected.clone_from(&self.levels);
         let forced = self.forced_segments.unwrap_or(1);
+        // Along a stiff foundation what a start changes grows even at rest.
+        let unloaded = |span: &Span| Level::default().segments(&self.lowered.beams[span.beam], span);
+        let count = |span| unloaded(span).max(forced);
         let counts: Vec<usize> =
-            self.lowered.spans.iter().map(|span| if span.undivided { 1 } else { forced }).collect();
+            self.lowered.spans.iter().map(|span| if span.undivided { 1 } else { count(span) }).collect();
         let fits = !first_time && counts.iter().zip(&self.meshes).all(|(c, m)| *c == m.segments.len());
         if fits {
             self.restep(self.accuracy, false);

@@ -107,13 +107,19 @@ impl Equilibrium {
         places
     }
 
-    /// Samples of one beam and its strain energy in joules.
+    /// Samples of one beam, and its strain energy with that of its foundation in joules.
     pub(crate) fn sample_beam(&self, beam: usize, samples: usize, energies: bool) -> (BeamSolution, f64) {
         let law = &self.lowered.beams[beam];
         let places = self.places(beam, samples);
         let tiny = 1e-12 * law.length;
-        let mut out = BeamSolution { samples: Vec::with_capacity(places.len()), length: law.length };
+        let mut out = BeamSolution {
+            samples: Vec::with_capacity(places.len()),
+            length: law.length,
+            foundation_force: Vector3::zeros(),
+        };
         let mut energy = 0.0;
+        // The whole force of a foundation is an integral as the energy is.
+        let integrals = energies || !law.founded.is_empty();
         for (index, span) in self.lowered.spans.iter().enumerate().filter(|(_, s)| s.beam == beam) {
             let mesh = &self.meshes[index];
             let pulls = self.pulls(index);
@@ -150,12 +156,13 @@ impl Equilibrium {
                     let stored = |a: f64, b: f64, state: &mut Plain, to: &mut dyn FnMut(f64, &mut Plain)| {
                         let parts = ((b - a) * density * 4.0).ceil().max(1.0);
                         let h = (b - a) / parts;
-                        let mut sum = 0.0;
+                        let mut sum = (0.0, Vector3::zeros());
                         for part in 0..parts as usize {
                             for (node, weight) in GAUSS {
                                 let s = a + h * (part as f64 + node);
                                 to(s, state);
-                                sum += h * weight * self.energy_density(beam, s, state, &threads);
+                                let (density, force) = self.densities(beam, s, state, &threads);
+                                sum = (sum.0 + h * weight * density, sum.1 + force * (h * weight));
                             }
                         }
                         sum
@@ -165,16 +172,20 @@ impl Equilibrium {
                         places.iter().filter(|s| **s > stretch.s[0] + tiny && **s <= stretch.s[1] + tiny);
                     for &b in inside {
                         let b = b.min(stretch.s[1]);
-                        if energies {
-                            energy += stored(a, b, &mut state, &mut to);
+                        if integrals {
+                            let (part, force) = stored(a, b, &mut state, &mut to);
+                            energy += part;
+                            out.foundation_force += force;
                         }
                         to(b, &mut state);
                         out.samples.push(self.sample(beam, b, &state, &threads));
                         a = b;
                     }
                     // A stretch may end between two samples.
-                    if energies && stretch.s[1] - a > tiny {
-                        energy += stored(a, stretch.s[1], &mut state, &mut to);
+                    if integrals && stretch.s[1] - a > tiny {
+                        let (part, force) = stored(a, stretch.s[1], &mut state, &mut to);
+                        energy += part;
+                        out.foundation_force += force;
                     }
                     // The stretch itself gives the state that the next one starts from, jumps included.
                     state = start;
@@ -236,13 +247,18 @@ impl Equilibrium {
             curvature,
             rest_curvature: law.law_at(inset).k0,
             strain,
+            // Where a foundation ends, what is before it counts.
+            foundation: law.foundation_at((s - 1e-12 * law.length).max(0.0), &pose.position).0,
         }
     }
 
-    /// ½ (n, m) · C (n, m), J/m.
-    fn energy_density(&self, beam: usize, s: f64, state: &Plain, threads: &Threads<'_>) -> f64 {
+    /// Energy of the beam and its foundation, ½ (n, m) · C (n, m) + ∫ f du (J/m), and force of the foundation (N/m).
+    fn densities(&self, beam: usize, s: f64, state: &Plain, threads: &Threads<'_>) -> (f64, Vector3<f64>) {
+        let law = &self.lowered.beams[beam];
         let (own, strain, curvature) = self.share(beam, s, state, threads);
-        let rest = self.lowered.beams[beam].law_at(s).k0;
-        0.5 * (own.force.dot(&strain) + own.moment.dot(&(curvature - rest)))
+        let own = 0.5 * (own.force.dot(&strain) + own.moment.dot(&(curvature - law.law_at(s).k0)));
+        let position = Vector3::from(state.position) * self.lowered.scale.length;
+        let (force, pushed) = law.foundation_at(s, &position);
+        (own + pushed, force)
     }
 }

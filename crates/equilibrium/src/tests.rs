@@ -35,6 +35,7 @@ pub(crate) fn beam(name: &str, start: Option<End>, end: Option<End>) -> Beam {
         start,
         end,
         distributed: Vec::new(),
+        foundation: Vec::new(),
     }
 }
 

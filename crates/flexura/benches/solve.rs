@@ -44,6 +44,7 @@ fn cantilever(shape: Shape, curve: Curve, theory: BeamTheory, start: Pose, force
         start: Some(End { mount: Mount::Ground, placement: Some(start), hold: JointLaw::weld() }),
         end: None,
         distributed: Vec::new(),
+        foundation: Vec::new(),
     });
     model.loads.push(Load {
         name: "tip".into(),
@@ -128,7 +129,13 @@ fn random_loads() -> Vec<(Vector3<f64>, Vector3<f64>)> {
 
 fn kernel<const W: usize>(times: usize) {
     let law = Slender { k0: [0.0; 3], stretch: 0.0, bend: [1.3, 1.0, 1.0] };
-    let piece = Piece { length: 1.0, steps: 4, laws: LawTable::Slender(vec![law]), loads: Vec::new() };
+    let piece = Piece {
+        length: 1.0,
+        steps: 4,
+        laws: LawTable::Slender(vec![law]),
+        loads: Vec::new(),
+        foundation: None,
+    };
     for i in 0..times {
         let mut state: RodState<W> = RodState::origin();
         state.force = [0.1, 1.0 + 1e-9 * i as f64, 0.2];

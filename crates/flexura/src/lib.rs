@@ -60,6 +60,7 @@
 //!     start: Some(End { mount: Mount::Ground, placement: None, hold: JointLaw::weld() }),
 //!     end: None,
 //!     distributed: Vec::new(),
+//!     foundation: Vec::new(),
 //! });
 //! model.loads.push(Load {
 //!     name: "tip".into(),

@@ -1,6 +1,6 @@
 //! Beams: rest shape, theory, ends and distributed loads.
 
-use crate::{JointLaw, MaterialId, Mount, Profile, SectionId};
+use crate::{Foundation, JointLaw, MaterialId, Mount, Profile, SectionId};
 use flexura_expression::Function;
 use flexura_spatial::{Pose, Vector3};
 
@@ -25,6 +25,8 @@ pub struct Beam {
     pub end: Option<End>,
     /// Forces and moments per undeformed length, summed.
     pub distributed: Vec<Distributed>,
+    /// Elastic foundations along it, summed.
+    pub foundation: Vec<Foundation>,
 }
 
 /// Which strains a beam has besides bending and torsion.

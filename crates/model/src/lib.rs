@@ -9,6 +9,7 @@ mod beam;
 mod body;
 mod cable;
 mod contact;
+mod foundation;
 mod inverse;
 mod joint;
 mod load;
@@ -29,6 +30,7 @@ pub use contact::{
     Boundary, BoundaryCurve, Contact, RevolutionProfile, Rolling, RollingCoordinate, Side, Slide, Surface,
     SurfaceMotion, Surfaces,
 };
+pub use foundation::{Foundation, FoundationLaw};
 pub use inverse::{Target, Unknown};
 pub use joint::{
     CoordinateKind, CoordinateLaw, Coupling, CouplingTerm, Drive, Joint, JointKind, JointLaw, Limits, across,

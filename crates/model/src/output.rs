@@ -68,6 +68,10 @@ pub enum Quantity {
     Strain,
     /// Largest von Mises stress of the section (beam).
     Stress,
+    /// Force of its foundation per undeformed length (beam), global.
+    Foundation,
+    /// Force of its foundation on the whole beam, wherever the probe is (beam), global.
+    FoundationForce,
     /// Coordinate of the joint; component is its number.
     Coordinate,
     /// Effort on a joint coordinate; component is its number.

@@ -8,14 +8,22 @@ use flexura_solution::Solution;
 use std::fmt::Write;
 
 const HEADER: &str = "beam,s[m],x[m],y[m],z[m],qw,qx,qy,qz,Fx[N],Fy[N],Fz[N],Mx[N*m],My[N*m],Mz[N*m],\
-k1[1/m],k2[1/m],k3[1/m],stretch,strain,stress[Pa]\n";
+k1[1/m],k2[1/m],k3[1/m],stretch,strain,stress[Pa]";
+/// Force of an elastic foundation; only where any beam has one.
+const FOUNDATION: &str = ",qx[N/m],qy[N/m],qz[N/m]";
 
-/// The table of all beams' samples. Strain and stress are left empty for a section given as a stiffness.
+/// The table of all beams' samples. Strain and stress are left empty for a section given as a stiffness, and the force of an elastic
+/// foundation for a beam without one.
 ///
 /// # Errors
 /// [`OutputError::NotFinite`] names the first number that is NaN or infinite.
 pub fn beams_csv(model: &Model, solution: &Solution, evaluation: &Evaluation) -> Result<String, OutputError> {
     let mut text = String::from(HEADER);
+    let founded = model.beams.iter().any(|beam| !beam.foundation.is_empty());
+    if founded {
+        text.push_str(FOUNDATION);
+    }
+    text.push('\n');
     for ((beam, result), stress) in model.beams.iter().zip(&solution.beams).zip(&evaluation.beams) {
         let name = quoted(&beam.name);
         let rotations = section_quaternions(result.samples.iter().map(|sample| &sample.pose.rotation));
@@ -38,6 +46,13 @@ pub fn beams_csv(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
                     push(&mut text, stress.samples[i].von_mises, &beam.name, i)?;
                 }
                 None => text.push_str(",,"),
+            }
+            if founded && beam.foundation.is_empty() {
+                text.push_str(",,,");
+            } else if founded {
+                for value in sample.foundation.iter() {
+                    push(&mut text, *value, &beam.name, i)?;
+                }
             }
             text.push('\n');
         }

@@ -7,7 +7,7 @@ use crate::wire::{
     JointDocument, SpringDocument, StateDocument, TubesDocument, Value, WorkDocument,
 };
 use crate::{Named, OutputError};
-use flexura_model::{Model, Tubes};
+use flexura_model::{Beam, Model, Tubes};
 use flexura_post::{BeamStress, Evaluation, OutputValue};
 use flexura_solution::{
     BeamSample, BeamSolution, CableSolution, Solution, SpringSolution, Status, TubesSample, TubesSolution,
@@ -74,7 +74,7 @@ pub(crate) fn state_document(
     Ok(StateDocument {
         beams: Named::collect(beams, |((beam, result), stress)| {
             let path = format!("beams.{}", beam.name);
-            Ok((beam.name.clone(), beam_document(&path, result, stress.as_ref())?))
+            Ok((beam.name.clone(), beam_document(&path, beam, result, stress.as_ref())?))
         })?,
         bodies: bodies(model, solution)?,
         joints: joints(model, solution)?,
@@ -250,6 +250,7 @@ pub(crate) fn work(work: &Work) -> WorkDocument {
 
 fn beam_document(
     path: &str,
+    beam: &Beam,
     result: &BeamSolution,
     stress: Option<&BeamStress>,
 ) -> Result<BeamDocument, OutputError> {
@@ -258,6 +259,7 @@ fn beam_document(
     };
     let list =
         |field: &str, values: &mut dyn Iterator<Item = f64>| finite_list(&format!("{path}.{field}"), values);
+    let founded = !beam.foundation.is_empty();
     let rotations = section_quaternions(result.samples.iter().map(|sample| &sample.pose.rotation));
     Ok(BeamDocument {
         s: list("s", &mut result.samples.iter().map(|sample| sample.s))?,
@@ -272,6 +274,10 @@ fn beam_document(
             .transpose()?,
         strain: stress
             .map(|stress| list("strain", &mut stress.samples.iter().map(|section| section.strain)))
+            .transpose()?,
+        foundation: founded.then(|| vectors("foundation", |sample| sample.foundation)).transpose()?,
+        foundation_force: founded
+            .then(|| all_finite(result.foundation_force.into(), || format!("{path}.foundation_force")))
             .transpose()?,
     })
 }

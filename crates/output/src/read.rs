@@ -185,6 +185,7 @@ fn beam_solution(name: &str, beam: &BeamDocument) -> Result<BeamSolution, ReadEr
         ("moment", beam.moment.len()),
         ("curvature", beam.curvature.len()),
         ("stretch", beam.stretch.len()),
+        ("foundation", beam.foundation.as_ref().map_or(count, Vec::len)),
     ];
     if let Some((field, length)) = lengths.into_iter().find(|(_, length)| *length != count) {
         return Err(broken(format!("`s` has {count} entries, but `{field}` has {length}")));
@@ -203,10 +204,12 @@ fn beam_solution(name: &str, beam: &BeamDocument) -> Result<BeamSolution, ReadEr
             curvature: beam.curvature[i].into(),
             rest_curvature: beam.curvature[i].into(),
             strain: Vector3::new(beam.stretch[i], 0.0, 0.0),
+            foundation: beam.foundation.as_ref().map_or(Vector3::zeros(), |list| list[i].into()),
         })
     };
     let samples = (0..count).map(sample).collect::<Result<_, _>>()?;
-    Ok(BeamSolution { samples, length: beam.s[count - 1] })
+    let foundation_force = beam.foundation_force.map_or(Vector3::zeros(), Vector3::from);
+    Ok(BeamSolution { samples, length: beam.s[count - 1], foundation_force })
 }
 
 fn tubes_solution(name: &str, tubes: &TubesDocument) -> Result<TubesSolution, ReadError> {

@@ -173,6 +173,12 @@ pub struct BeamDocument {
     pub stress: Option<Vec<f64>>,
     /// Largest surface strain of the section; null for a section given as a stiffness.
     pub strain: Option<Vec<f64>>,
+    /// Force of its elastic foundation per undeformed length, global, N/m; only where it has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foundation: Option<Vec<[f64; 3]>>,
+    /// Force of its elastic foundation on all of it, global, N; only where it has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foundation_force: Option<[f64; 3]>,
 }
 
 /// A body's pose.

@@ -265,6 +265,8 @@ impl Reader<'_> {
             Quantity::Force => sample.wrench.force,
             Quantity::Moment => sample.wrench.moment,
             Quantity::Curvature => sample.curvature,
+            Quantity::Foundation => sample.foundation,
+            Quantity::FoundationForce => result.foundation_force,
             Quantity::Displacement | Quantity::Turning => moved(&sample.rest_pose, &sample.pose, quantity),
             Quantity::Compliance | Quantity::Stiffness | Quantity::CenterOfCompliance => {
                 let position = sample.pose.position;

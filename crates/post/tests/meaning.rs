@@ -40,6 +40,7 @@ fn strip(force: f64, moment: f64) -> (Model, Solution) {
         start: None,
         end: None,
         distributed: Vec::new(),
+        foundation: Vec::new(),
     });
     model.bodies.push(Body {
         name: "tip".into(),
@@ -62,6 +63,7 @@ fn strip(force: f64, moment: f64) -> (Model, Solution) {
             curvature: Vector3::new(0.1, 0.2, 0.3),
             rest_curvature: Vector3::zeros(),
             strain: Vector3::new(0.5e-3, 0.0, 0.0),
+            foundation: Vector3::zeros(),
         }
     });
     let solution = Solution {
@@ -72,7 +74,7 @@ fn strip(force: f64, moment: f64) -> (Model, Solution) {
         error_estimate: 0.0,
         warnings: Vec::new(),
         work: Work::default(),
-        beams: vec![BeamSolution { samples: samples.collect(), length: LENGTH }],
+        beams: vec![BeamSolution { samples: samples.collect(), length: LENGTH, ..BeamSolution::default() }],
         bodies: vec![Pose::new(exp(&Vector3::new(0.3, 0.0, 0.0)), Vector3::new(0.0, 4.0, 3.0))],
         joints: Vec::new(),
         springs: Vec::new(),

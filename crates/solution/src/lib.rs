@@ -124,6 +124,8 @@ pub struct BeamSolution {
     pub samples: Vec<BeamSample>,
     /// Length L of the undeformed axis, m.
     pub length: f64,
+    /// Force of its elastic foundation on all of it, global, N; zero without one.
+    pub foundation_force: Vector3<f64>,
 }
 
 /// The state of a beam at one place.
@@ -144,6 +146,8 @@ pub struct BeamSample {
     pub rest_curvature: Vector3<f64>,
     /// ε, γ2, γ3.
     pub strain: Vector3<f64>,
+    /// Force of an elastic foundation per undeformed length, global, N/m; zero without one.
+    pub foundation: Vector3<f64>,
 }
 
 /// A joint's state.

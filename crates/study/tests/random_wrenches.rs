@@ -35,6 +35,7 @@ fn cantilever() -> Model {
         start: Some(End { mount: Mount::Ground, placement: None, hold: JointLaw::weld() }),
         end: None,
         distributed: Vec::new(),
+        foundation: Vec::new(),
     });
     model.loads.push(Load {
         name: "end".into(),

@@ -29,6 +29,7 @@ fn solved(ei: f64, curve: Curve, start: Pose, force: Vector3<f64>) -> Work {
         start: Some(End { mount: Mount::Ground, placement: Some(start), hold: JointLaw::weld() }),
         end: None,
         distributed: Vec::new(),
+        foundation: Vec::new(),
     });
     let point = BeamPoint { beam: BeamId(0), at: At::Fraction(1.0) };
     model.loads.push(Load {

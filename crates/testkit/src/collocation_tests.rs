@@ -149,6 +149,7 @@ fn varying_rest_curvature_and_load_balance_globally_and_converge() {
         compliance: [1e-3, 2e-3, 2e-3, 1.3, 1.0, 0.7],
         rest: Box::new(|s| Vector3::new(0.4 * s, 0.2, (2.0 * s).sin())),
         load: Box::new(|s| Vector3::new(0.1, -1.0 - s, 0.4 * s * s)),
+        reaction: None,
     };
     let tip = |f: f64| Tip::Follower(Wrench::new(Vector3::new(0.2, 0.1, 0.5), Vector3::y()) * f);
     let coarse = solve(&rod(), &Pose::identity(), &tip, 4, mesh(1, 24)).expect("converges");

@@ -12,6 +12,7 @@ pub mod columns;
 pub mod elastica;
 pub mod elliptic;
 pub mod exoskeleton;
+pub mod foundation;
 pub mod four_bar;
 pub mod helix;
 pub mod ivp;

@@ -3,7 +3,7 @@
 //! ```text
 //! p' = R (e1 + c_ε F1, c_γ2 F2, c_γ3 F3)        F_i = F·e_i
 //! R' = R hat(k),  k = k0(s) + (c_κ1 M1, c_κ2 M2, c_κ3 M3)
-//! F' = -q(s)       M' = -p' × F
+//! F' = -q(s, p)    M' = -p' × F
 //! ```
 //!
 //! Internal force and moment act by the part beyond s on the part before, in fixed axes. (Antman, *Nonlinear
@@ -24,12 +24,23 @@ pub struct Rod {
     pub rest: Field,
     /// Dead force per undeformed length at s, N/m.
     pub load: Field,
+    /// Force per undeformed length that depends on where the axis is: q(s, p), N/m. It acts in full whatever the load.
+    pub reaction: Option<Reaction>,
 }
+
+/// A force per length at s, the axis being at p.
+pub type Reaction = Box<dyn Fn(f64, &Vector3<f64>) -> Vector3<f64>>;
 
 impl Rod {
     /// A rod of uniform rest curvature without distributed load.
     pub fn uniform(length: f64, compliance: [f64; 6], rest: Vector3<f64>) -> Self {
-        Self { length, compliance, rest: Box::new(move |_| rest), load: Box::new(|_| Vector3::zeros()) }
+        Self {
+            length,
+            compliance,
+            rest: Box::new(move |_| rest),
+            load: Box::new(|_| Vector3::zeros()),
+            reaction: None,
+        }
     }
 
     /// The derivative of the 13 numbers of [`State::to_array`]; the distributed load times `load_factor`.
@@ -45,10 +56,11 @@ impl Rod {
         let strain = Vector3::new(1.0 + c[0] * f.x, c[1] * f.y, c[2] * f.z);
         let curvature = (self.rest)(s) + Vector3::new(c[3] * m.x, c[4] * m.y, c[5] * m.z);
         let slope = rotate(strain);
+        let reaction = self.reaction.as_ref().map_or(Vector3::zeros(), |q| q(s, &state.position));
         State {
             position: slope,
             orientation: q * Quaternion::from_imag(curvature) * 0.5,
-            force: -(self.load)(s) * load_factor,
+            force: -(self.load)(s) * load_factor - reaction,
             moment: -slope.cross(&state.force),
         }
         .to_array()

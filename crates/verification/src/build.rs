@@ -76,6 +76,7 @@ pub fn cantilever(section: Section, curve: Curve, theory: BeamTheory, place: Pos
         start: Some(clamped(Mount::Ground, Some(place))),
         end: None,
         distributed: Vec::new(),
+        foundation: Vec::new(),
     });
     model
 }

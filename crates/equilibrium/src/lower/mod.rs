@@ -70,7 +70,7 @@ pub(crate) struct Span {
     pub start: Hold,
     pub end: Option<Hold>,
     pub jumps: Vec<Jump>,
-    /// The internal force is known everywhere: the far end is free and every load dead.
+    /// The internal force is known everywhere: the far end is free, every load dead, and there is no foundation.
     pub determinate: bool,
     /// Cables that run in channels along it.
     pub tendons: Vec<usize>,
@@ -228,6 +228,9 @@ pub(crate) fn lower(
         }
     }
     spans::lay_out(model, &mut lowered)?;
+    for (beam, rest) in lowered.beams.iter_mut().zip(&lowered.beam_rest) {
+        beam.founded.rest = scale.pose_out(rest);
+    }
     spans::place_hubs(model, &mut lowered, probes);
     for i in 0..model.joints.len() {
         attachments::lower_joint(model, &mut lowered, i)?;

@@ -185,7 +185,9 @@ pub(super) fn lower_beam(model: &Model, lowered: &mut Lowered, beam: usize) -> R
             .cloned()
             .collect();
         let law = &lowered.beams[beam];
-        let determinate = end.is_none() && !law.follows() && inside.iter().all(|j| !j.load.follows());
+        let founded = law.founded.meets([a, b], length);
+        let determinate =
+            end.is_none() && !founded && !law.follows() && inside.iter().all(|j| !j.load.follows());
         let mut span = Span {
             beam,
             s: [a, b],

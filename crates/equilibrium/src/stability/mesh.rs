@@ -5,10 +5,14 @@
 //! positive where
 //!
 //! ```text
-//!   (2ℓ/π) M/B + (2ℓ/π)² F/B < 1
+//!   (2ℓ/π) M/B + (2ℓ/π)² F/B + 2 κ ((2ℓ/π)⁴/B + (2ℓ/π)² A) < 1
 //! ```
+//!
+//! κ is the most by which a foundation pulls away per displacement, where its law has a negative slope: its part is κ ∫|δp|², with
+//! δp' = δθ × p' + δν and A the largest compliance in stretching and shear. One that pushes back only helps.
 
 use super::segment::Form;
+use crate::beam::BeamLaw;
 use crate::mesh::{Level, Stretch};
 use crate::shooting::{Plain, SegmentEnd, jump};
 use crate::system::Equilibrium;
@@ -23,9 +27,33 @@ const ACCURACY: f64 = 1e-9;
 /// Most stretches of one span.
 const MOST_STRETCHES: usize = 20_000;
 
-fn measure(length: f64, soft: f64, level: &Level) -> f64 {
+/// Rate of growth times length that a stretch on a foundation may have, so that its map keeps its digits.
+const GROWTH: f64 = 2.0;
+/// Places along a stretch at which the slope of a foundation is taken.
+const PLACES: usize = 5;
+
+/// The left side above; `pull` is κ.
+fn measure(length: f64, law: &BeamLaw, level: &Level, pull: f64) -> f64 {
     let reach = std::f64::consts::FRAC_2_PI * length;
-    soft * (reach * (level.moment + level.tendons) + reach * reach * level.force)
+    let square = reach * reach;
+    let (soft, yields) = (law.soft(), law.yields());
+    soft * (reach * (level.moment + level.tendons) + square * level.force)
+        + 2.0 * pull * square * (square * soft + yields)
+}
+
+/// κ along a stretch between two states: laws at displacements between those of its ends.
+fn pull(law: &BeamLaw, s: [f64; 2], ends: [&Plain; 2]) -> f64 {
+    if !law.founded.is_nonlinear() {
+        return 0.0;
+    }
+    let rest = |s: f64| law.place(s).position / law.scale.length;
+    let moved = [0, 1].map(|end| Vector3::from(ends[end].position) - rest(s[end]));
+    let at = |i: usize| {
+        let t = i as f64 / (PLACES - 1) as f64;
+        let s = s[0] + t * (s[1] - s[0]);
+        -law.foundation_slopes(s, &(rest(s) + moved[0] * (1.0 - t) + moved[1] * t))[1]
+    };
+    (0..PLACES).map(at).fold(0.0, f64::max)
 }
 
 fn norm(v: &[f64; 3]) -> f64 {
@@ -75,7 +103,10 @@ impl Equilibrium {
                 // From the condition, as a quadratic in the length.
                 let (a, b) = (law.soft() * level.force, law.soft() * (level.moment + level.tendons));
                 let aim = 2.0 * AIM / (b + (b * b + 4.0 * a * AIM).sqrt()).max(1e-300);
+                let push = law.foundation_stiffness(stretch.s) + level.foundation;
+                let grown = whole * (push * law.soft()).powf(0.25).max((push * law.yields()).sqrt());
                 let count = (whole / (aim * std::f64::consts::FRAC_PI_2))
+                    .max(grown / GROWTH)
                     .ceil()
                     .clamp(parts as f64, MOST_STRETCHES as f64);
                 let mut width = (last - first) / count;
@@ -96,8 +127,10 @@ impl Equilibrium {
                             force: norm(&here.force).max(norm(&form.end.force)),
                             moment: norm(&here.moment).max(norm(&form.end.moment)),
                             tendons: level.tendons,
+                            foundation: 0.0,
                         };
-                        measure((next - s) / law.scale.length, law.soft(), &met) <= MOST
+                        let pull = pull(law, [s, next], [&here, &form.end]);
+                        measure((next - s) / law.scale.length, law, &met, pull) <= MOST
                     });
                     if let Some(form) = form {
                         here = form.end;

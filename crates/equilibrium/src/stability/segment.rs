@@ -59,7 +59,9 @@ impl Form {
         end: &mut SegmentEnd,
     ) -> Option<Self> {
         let loads = &stretch.piece.loads;
-        let directed = loads.iter().any(|l| l.dead_force != [0.0; 3] || l.dead_moment != [0.0; 3]);
+        // Neither a load that keeps its direction nor a foundation goes along when all is moved.
+        let directed = stretch.piece.foundation.is_some()
+            || loads.iter().any(|l| l.dead_force != [0.0; 3] || l.dead_moment != [0.0; 3]);
         let acting = Acting { jumps: &[], load, pulls };
         let (length, s_ends) = (stretch.piece.length, stretch.s);
         let stretch = std::slice::from_ref(stretch);

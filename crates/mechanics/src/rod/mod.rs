@@ -3,12 +3,14 @@
 
 pub mod balance;
 pub mod constitutive;
+pub mod foundation;
 pub mod propagate;
 mod straighten;
 pub mod tendon;
 pub mod tubes;
 
 pub use constitutive::{Coupled, Law, Shearable, Slender};
+pub use foundation::{Foundation, FoundationSample, Resistance};
 pub use propagate::{LawTable, LoadSample, Piece, RodState, advance};
 pub use tendon::{Channel, ChannelSample, Tension, advance_tendons, rod_share};
 pub use tubes::{Guided, TUBES, Tube, TubePiece, TubeState, advance_tubes};

@@ -10,6 +10,7 @@ use super::balance::{
     conserved_moment, cross, cross_lanes, pose_rate, rotation, sub, wrench_rate,
 };
 use super::constitutive::{Coupled, Law, Shearable, Slender};
+use super::foundation::{Footing, Foundation};
 use crate::ode::{self, Rate, STAGES, State};
 
 /// The law at every stage of every step, or once where it is the same everywhere.
@@ -66,6 +67,8 @@ pub struct Piece {
     pub laws: LawTable,
     /// No distributed load (empty), one for all places, or `steps * STAGES`.
     pub loads: Vec<LoadSample>,
+    /// An elastic foundation.
+    pub foundation: Option<Foundation>,
 }
 
 /// The state of a rod at one section, global axes, with derivatives in lanes 1.. of `d`.
@@ -193,15 +196,66 @@ impl<L: Law, const W: usize> Rate<FULL_ROWS, W> for Loaded<'_, L, W> {
     }
 }
 
+/// A stretch on an elastic foundation, which acts in full whatever the load.
+struct Founded<'a, L, const W: usize> {
+    loaded: Loaded<'a, L, W>,
+    footing: Footing<'a, W>,
+}
+
+impl<L: Law, const W: usize> Rate<FULL_ROWS, W> for Founded<'_, L, W> {
+    #[inline(always)]
+    fn rate(&self, step: usize, stage: usize, y: &State<FULL_ROWS, W>) -> State<FULL_ROWS, W> {
+        let Loaded { laws, samples, load, r0, dtheta } = &self.loaded;
+        let q = [y[0], y[1], y[2], y[3]];
+        let force = [y[7], y[8], y[9]];
+        let moment = [y[10], y[11], y[12]];
+        let (rate, r, along) = pose_rate(&q, &force, &moment, entry(laws, step, stage));
+        let sample = match samples.is_empty() {
+            true => LoadSample::default(),
+            false => *entry(samples, step, stage),
+        };
+        let (mut dead, section) = sample.localised(*load, r0, dtheta);
+        dead[0] = add(&dead[0], &self.footing.force(step, stage, &[y[4], y[5], y[6]]));
+        wrench_rate(&rate, &q, &r, &along, &force, &dead, &section)
+    }
+}
+
+/// Pose and wrench at the end of a stretch whose wrench has a rate, in its start frame.
+#[inline(always)]
+pub(super) fn through<const W: usize>(
+    piece: &Piece,
+    force: &Lanes<W>,
+    moment: &Lanes<W>,
+    system: &impl Rate<FULL_ROWS, W>,
+) -> (State<POSE_ROWS, W>, Lanes<W>, Lanes<W>) {
+    let h = piece.length / piece.steps as f64;
+    let mut y: State<FULL_ROWS, W> = [[0.0; W]; FULL_ROWS];
+    y[0][0] = 1.0;
+    y[7..10].copy_from_slice(force);
+    y[10..13].copy_from_slice(moment);
+    let mut rates = ode::workspace();
+    for i in 0..piece.steps {
+        y = ode::step(&y, h, i, system, &mut rates);
+    }
+    let mut pose = [[0.0; W]; POSE_ROWS];
+    pose.copy_from_slice(&y[..POSE_ROWS]);
+    (pose, [y[7], y[8], y[9]], [y[10], y[11], y[12]])
+}
+
 #[inline(always)]
 fn run<L: Law, const W: usize>(piece: &Piece, laws: &[L], load: f64, state: &mut RodState<W>) {
     let (r0, _) = rotation(&state.rotation);
     let dtheta0 = state.rows(0);
     let force0 = localised(&r0, &state.force, &state.rows(6), &dtheta0);
     let moment0 = localised(&r0, &state.moment, &state.rows(9), &dtheta0);
-    let h = piece.length / piece.steps as f64;
-    let (pose, force, moment) = if piece.loads.is_empty() {
+    let loaded = Loaded { laws, samples: &piece.loads, load, r0, dtheta: dtheta0 };
+    let (pose, force, moment) = if let Some(foundation) = &piece.foundation {
+        let start = (state.position, state.rows(3));
+        let footing = Footing { foundation, r0, dtheta: dtheta0, start };
+        through(piece, &force0, &moment0, &Founded { loaded, footing })
+    } else if piece.loads.is_empty() {
         let system = Unloaded { laws, force: force0, moment: moment0 };
+        let h = piece.length / piece.steps as f64;
         let mut y: State<POSE_ROWS, W> = [[0.0; W]; POSE_ROWS];
         y[0][0] = 1.0;
         let mut rates = ode::workspace();
@@ -211,18 +265,7 @@ fn run<L: Law, const W: usize>(piece: &Piece, laws: &[L], load: f64, state: &mut
         let moment = conserved_moment(&[y[4], y[5], y[6]], &force0, &moment0);
         (y, force0, moment)
     } else {
-        let system = Loaded { laws, samples: &piece.loads, load, r0, dtheta: dtheta0 };
-        let mut y: State<FULL_ROWS, W> = [[0.0; W]; FULL_ROWS];
-        y[0][0] = 1.0;
-        y[7..10].copy_from_slice(&force0);
-        y[10..13].copy_from_slice(&moment0);
-        let mut rates = ode::workspace();
-        for i in 0..piece.steps {
-            y = ode::step(&y, h, i, &system, &mut rates);
-        }
-        let mut pose = [[0.0; W]; POSE_ROWS];
-        pose.copy_from_slice(&y[..POSE_ROWS]);
-        (pose, [y[7], y[8], y[9]], [y[10], y[11], y[12]])
+        through(piece, &force0, &moment0, &loaded)
     };
     globalise(&r0, &pose, &force, &moment, state);
 }

@@ -56,8 +56,13 @@ mod tests {
     #[test]
     fn a_bent_piece_keeps_its_shape_under_another_moment() {
         let law = Slender { k0: [0.3, -0.2, 0.8], stretch: 0.0, bend: [1.2, 1.0, 0.4] };
-        let mut piece =
-            Piece { length: 0.3, steps: 2, laws: LawTable::Slender(vec![law]), loads: Vec::new() };
+        let mut piece = Piece {
+            length: 0.3,
+            steps: 2,
+            laws: LawTable::Slender(vec![law]),
+            loads: Vec::new(),
+            foundation: None,
+        };
         let mut bent = RodState::<1>::origin();
         bent.moment = [0.1, 0.5, -0.4];
         let mut same = bent;

@@ -24,10 +24,11 @@
 //! so here the same equilibrium is algebraic in the strain, needs neither d'' nor derivatives of the
 //! stiffness, and also holds for a rod that does not stretch or shear (C singular).
 
-use super::balance::{FULL_ROWS, Lanes, Matrix, POSE_ROWS, section_wrench, strained_rate, wrench_rate};
+use super::balance::{FULL_ROWS, Lanes, Matrix, add, section_wrench, strained_rate, wrench_rate};
 use super::constitutive::{Coupled, Law};
-use super::propagate::{LawTable, LoadSample, Piece, RodState, entry, globalise, localised};
-use crate::ode::{self, Rate, State, WEIGHTS};
+use super::foundation::Footing;
+use super::propagate::{LawTable, LoadSample, Piece, RodState, entry, globalise, localised, through};
+use crate::ode::{Rate, State, WEIGHTS};
 use std::cell::RefCell;
 
 /// A tension with its derivatives: lane 0 the value, N (not negative at a solution), lanes 1.. its derivatives
@@ -134,19 +135,16 @@ fn run<const W: usize>(
         load,
         r0,
         dtheta,
+        footing: piece.foundation.as_ref().map(|foundation| Footing {
+            foundation,
+            r0,
+            dtheta,
+            start: (state.position, state.rows(3)),
+        }),
         scratch: RefCell::new(Scratch { section: Section { tendons, pull: None }, lengths }),
     };
-    let mut y: State<FULL_ROWS, W> = [[0.0; W]; FULL_ROWS];
-    y[0][0] = 1.0;
-    y[7..10].copy_from_slice(&force);
-    y[10..13].copy_from_slice(&moment);
-    let mut rates = ode::workspace();
-    for i in 0..piece.steps {
-        y = ode::step(&y, h, i, &system, &mut rates);
-    }
-    let mut pose = [[0.0; W]; POSE_ROWS];
-    pose.copy_from_slice(&y[..POSE_ROWS]);
-    globalise(&r0, &pose, &[y[7], y[8], y[9]], &[y[10], y[11], y[12]], state);
+    let (pose, force, moment) = through(piece, &force, &moment, &system);
+    globalise(&r0, &pose, &force, &moment, state);
 }
 
 /// What the stages hand on: tendons in the section, and the lengths so far.
@@ -164,6 +162,7 @@ struct Tendoned<'a, const W: usize> {
     load: f64,
     r0: Matrix,
     dtheta: Lanes<W>,
+    footing: Option<Footing<'a, W>>,
     scratch: RefCell<Scratch<'a, W>>,
 }
 
@@ -216,7 +215,10 @@ impl<const W: usize> Rate<FULL_ROWS, W> for Tendoned<'_, W> {
             true => LoadSample::default(),
             false => *entry(&self.piece.loads, step, stage),
         };
-        let (dead, section) = sample.localised(self.load, &self.r0, &self.dtheta);
+        let (mut dead, section) = sample.localised(self.load, &self.r0, &self.dtheta);
+        if let Some(footing) = &self.footing {
+            dead[0] = add(&dead[0], &footing.force(step, stage, &[y[4], y[5], y[6]]));
+        }
         wrench_rate(&rate, &q, &total.r, &along, &force, &dead, &section)
     }
 }

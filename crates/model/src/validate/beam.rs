@@ -89,6 +89,7 @@ impl Model {
             }
             check_law(&end.hold, &path, issues);
         }
+        super::foundation::check_foundations(beam, length, issues);
         for (i, distributed) in beam.distributed.iter().enumerate() {
             for (profiles, word) in [(&distributed.force, "force"), (&distributed.moment, "moment")] {
                 for (k, profile) in profiles.iter().enumerate() {

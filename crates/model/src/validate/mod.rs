@@ -4,6 +4,7 @@ use crate::Model;
 use flexura_spatial::{Matrix3, Pose, Vector3};
 
 mod beam;
+mod foundation;
 mod joint;
 mod load;
 mod motion;

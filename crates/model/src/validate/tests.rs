@@ -29,6 +29,7 @@ fn good() -> Model {
             start: Some(End { mount: Mount::Ground, placement: None, hold: JointLaw::weld() }),
             end: None,
             distributed: Vec::new(),
+            foundation: Vec::new(),
         }],
         ..Model::default()
     }

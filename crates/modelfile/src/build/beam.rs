@@ -1,6 +1,7 @@
 //! Beams with their ends and distributed loads.
 
 use super::curve::{curve, frame};
+use super::foundation::foundations;
 use super::joint::law;
 use super::place;
 use crate::context::{Needed, Read, Reported};
@@ -18,6 +19,7 @@ pub(super) fn beam(reader: &Reader<'_, '_>, name: String) -> Read<Beam> {
     let shear = reader.flag("shear");
     let extension = reader.flag("extension");
     let distributed = distributed(reader);
+    let foundation = foundations(reader);
     Ok(Beam {
         name,
         material: material?.map(MaterialId),
@@ -28,6 +30,7 @@ pub(super) fn beam(reader: &Reader<'_, '_>, name: String) -> Read<Beam> {
         start: start?,
         end: end?,
         distributed: distributed?,
+        foundation: foundation?,
     })
 }
 

@@ -6,6 +6,7 @@ mod cable;
 mod contact;
 mod coupling;
 mod curve;
+mod foundation;
 mod joint;
 mod load;
 mod material;

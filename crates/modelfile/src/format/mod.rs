@@ -5,6 +5,7 @@
 
 mod attachments;
 mod contacts;
+mod foundation;
 mod joints;
 mod motion;
 mod relations;

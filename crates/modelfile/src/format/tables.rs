@@ -1,6 +1,7 @@
 //! Tables of what a mechanism is made of: file, materials, sections, beams, curves.
 
 use super::attachments::{BODY, LOAD, MASS};
+use super::foundation::FOUNDATION;
 use super::joints::{END, JOINT};
 use super::relations::{CABLE, COUPLING, UNKNOWN};
 use super::sections::SECTION;
@@ -200,6 +201,13 @@ pub(crate) static BEAM: Table = table(
             Optional,
             "{ force = [0, 0, \"-2 N/m\"] }",
             "Loads per undeformed length.",
+        ),
+        key(
+            "foundation",
+            Shape::Tables(&FOUNDATION),
+            Optional,
+            "{ stiffness = \"1 kN/m^2\", direction = [0, 1, 0] }",
+            "Elastic foundations: forces per undeformed length that grow with the displacement.",
         ),
     ],
 );

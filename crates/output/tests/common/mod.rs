@@ -41,6 +41,7 @@ fn beam(name: &str, section: SectionId, material: Option<MaterialId>, length: f6
         start: clamp(Mount::Ground),
         end: clamp(Mount::Body(BodyId(0))),
         distributed: Vec::new(),
+        foundation: Vec::new(),
     }
 }
 
@@ -129,6 +130,7 @@ pub fn solution() -> Solution {
             curvature: Vector3::new(0.0, CURVATURE, 0.0),
             rest_curvature: Vector3::zeros(),
             strain: Vector3::zeros(),
+            foundation: Vector3::zeros(),
         }
     });
     let tip = arc(LENGTH);
@@ -145,6 +147,7 @@ pub fn solution() -> Solution {
             curvature: Vector3::zeros(),
             rest_curvature: Vector3::zeros(),
             strain: Vector3::zeros(),
+            foundation: Vector3::zeros(),
         }
     });
     let spring_start = Vector3::new(0.0, 0.0, -0.15);
@@ -157,8 +160,8 @@ pub fn solution() -> Solution {
         warnings: vec!["hinge is free to turn".into()],
         work: Work { newton_steps: 4, load_steps: 1, ..Work::default() },
         beams: vec![
-            BeamSolution { samples: strip.collect(), length: LENGTH },
-            BeamSolution { samples: wire.collect(), length: 0.1 },
+            BeamSolution { samples: strip.collect(), length: LENGTH, ..BeamSolution::default() },
+            BeamSolution { samples: wire.collect(), length: 0.1, ..BeamSolution::default() },
         ],
         bodies: vec![tip, lever],
         joints: vec![JointSolution {

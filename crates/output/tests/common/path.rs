@@ -60,6 +60,7 @@ pub fn model() -> Model {
             start: end(Mount::Ground),
             end: end(Mount::Body(BodyId(0))),
             distributed: Vec::new(),
+            foundation: Vec::new(),
         }],
         bodies: vec![Body {
             name: "slider".into(),
@@ -108,6 +109,7 @@ pub fn state(w: f64) -> Solution {
             curvature: Vector3::zeros(),
             rest_curvature: Vector3::zeros(),
             strain: Vector3::zeros(),
+            foundation: Vector3::zeros(),
         }
     };
     let samples: Vec<BeamSample> = (0..SAMPLES).map(sample).collect();
@@ -120,7 +122,7 @@ pub fn state(w: f64) -> Solution {
         error_estimate: 1e-10,
         warnings: Vec::new(),
         work: Work::default(),
-        beams: vec![BeamSolution { samples, length: LENGTH }],
+        beams: vec![BeamSolution { samples, length: LENGTH, ..BeamSolution::default() }],
         bodies: vec![end],
         joints: vec![JointSolution {
             coordinates: vec![end.position.x - LENGTH],

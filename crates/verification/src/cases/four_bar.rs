@@ -85,6 +85,7 @@ fn model() -> Model {
         start: Some(clamped(Mount::Body(BodyId(0)), Some(top))),
         end: Some(clamped(Mount::Body(BodyId(1)), Some(turned))),
         distributed: Vec::new(),
+        foundation: Vec::new(),
     });
     model.loads.push(Load {
         name: "pull".to_string(),

@@ -10,6 +10,7 @@ mod ends;
 mod flexure_order;
 mod flexures;
 mod follower;
+mod foundation;
 mod four_bar;
 mod frame;
 mod helix_wrench;
@@ -60,6 +61,7 @@ pub fn cases() -> Vec<Case> {
         &tendons::CASES,
         &tubes::CASES,
         &columns::CASES,
+        &foundation::CASES,
         &pushed_strip::CASES,
         &slide_law::CASES,
         &torsion::CASES,

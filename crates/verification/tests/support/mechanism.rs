@@ -1,5 +1,6 @@
 //! A mechanism with something of everything that an invariance could break.
 
+use flexura_expression::Function;
 use flexura_model::*;
 use flexura_spatial::{Matrix3, Pose, Vector3, exp};
 
@@ -43,9 +44,17 @@ fn on(beam: usize, fraction: f64) -> BeamPoint {
     BeamPoint { beam: BeamId(beam), at: At::Fraction(fraction) }
 }
 
+fn law(text: &str) -> Function {
+    Function::parse(text, "u").expect("a law")
+}
+
+fn foundation(law: FoundationLaw, direction: Option<Vector3<f64>>, between: [f64; 2]) -> Foundation {
+    Foundation { law, direction, axes: LoadAxes::Global, between: between.map(At::Fraction) }
+}
+
 /// A stage on a straight mast and a curved arm that is pinned to the ground; a tapering whip that grows from
 /// the stage; a lever that turns on the stage against a spring; gravity, dead and following loads, at ends, at
-/// stations and along the way. Lengths, stiffnesses and loads are of the order of one.
+/// stations and along the way; mast and whip on foundations. Lengths, stiffnesses and loads are of the order of one.
 pub fn mechanism(draw: &Draw) -> Model {
     let along = Vector3::from(draw.direction).normalize() * draw.strength;
     let across = Vector3::new(along.z, along.x, along.y);
@@ -67,6 +76,7 @@ pub fn mechanism(draw: &Draw) -> Model {
         start,
         end,
         distributed: Vec::new(),
+        foundation: Vec::new(),
     };
     let full = BeamTheory { shear: true, extension: true };
     let mut mast = beam(
@@ -79,6 +89,10 @@ pub fn mechanism(draw: &Draw) -> Model {
     );
     let force = constants(along * 0.8);
     mast.distributed.push(Distributed { force, moment: constants(across * 0.1), axes: LoadAxes::Global });
+    mast.foundation = vec![
+        foundation(FoundationLaw::Linear(2.0.into()), None, [0.0, 1.0]),
+        foundation(FoundationLaw::Force(law("1.5*u + 8*u^3")), Some(across.normalize()), [0.0, 1.0]),
+    ];
     model.beams.push(mast);
     let side = placed([0.2, 1.0, 0.4], [0.0, 0.1, 0.1]);
     model.beams.push(beam(
@@ -95,6 +109,9 @@ pub fn mechanism(draw: &Draw) -> Model {
         beam("whip", 1, helix, end(stage, Some(other), JointKind::Weld), None, BeamTheory::default());
     let force = constants(across * 0.4);
     whip.distributed.push(Distributed { force, moment: constants(along * 0.05), axes: LoadAxes::Section });
+    let aside = Some(Vector3::new(0.1, 0.8, -0.5).normalize());
+    let bed = foundation(FoundationLaw::Force(law("3*sin(u)")), aside, [0.2, 0.9]);
+    whip.foundation.push(Foundation { axes: LoadAxes::Section, ..bed });
     model.beams.push(whip);
     add_joints_and_loads(&mut model, along, across);
     model

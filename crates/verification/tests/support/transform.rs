@@ -1,5 +1,6 @@
 //! The same mechanism described in other ways.
 
+use flexura_expression::Function;
 use flexura_geometry::RestShape;
 use flexura_model::*;
 use flexura_spatial::{Pose, Vector3, exp};
@@ -42,6 +43,9 @@ pub fn moved(model: &Model, motion: &Pose) -> Model {
         for load in beam.distributed.iter_mut().filter(|load| load.axes == LoadAxes::Global) {
             load.force = mapped(&load.force, |v| turn(&v));
             load.moment = mapped(&load.moment, |v| turn(&v));
+        }
+        for bed in beam.foundation.iter_mut().filter(|bed| bed.axes == LoadAxes::Global) {
+            bed.direction = bed.direction.map(|direction| turn(&direction));
         }
     }
     for joint in &mut new.joints {
@@ -105,6 +109,15 @@ pub fn in_units(model: &Model, a: f64, b: f64) -> Model {
         for load in &mut beam.distributed {
             load.force.iter_mut().for_each(|profile| scale(profile, b / a));
             load.moment.iter_mut().for_each(|profile| scale(profile, b));
+        }
+        for bed in &mut beam.foundation {
+            match &mut bed.law {
+                FoundationLaw::Linear(profile) => scale(profile, b / (a * a)),
+                FoundationLaw::Force(law) => {
+                    let text = law.text().replace('u', &format!("(u*{:?})", 1.0 / a));
+                    *law = Function::parse(&format!("{:?}*({text})", b / a), "u").expect("a law");
+                }
+            }
         }
     }
     for body in &mut new.bodies {
@@ -196,6 +209,12 @@ pub fn reversed(model: &Model, beam: usize) -> Model {
         load.force = mapped(&load.force, |v| seen(&v));
         load.moment = mapped(&load.moment, |v| seen(&v));
     }
+    for bed in &mut new.beams[beam].foundation {
+        bed.between = [flipped(bed.between[1]), flipped(bed.between[0])];
+        if bed.axes == LoadAxes::Section {
+            bed.direction = bed.direction.map(|direction| seen(&direction));
+        }
+    }
     // A section of its own, read from the other end.
     let mut section = model[old.section].clone();
     section.name = "read_backwards".to_string();
@@ -251,6 +270,8 @@ pub fn split(model: &Model, beam: usize, fraction: f64) -> Model {
         other => panic!("not needed here: {other:?}"),
     };
     let whole = &model.beams[beam];
+    let ends = [At::Fraction(0.0), At::Fraction(1.0)];
+    assert!(whole.foundation.iter().all(|bed| bed.between == ends), "not needed here");
     let second = Beam {
         name: "second_half".to_string(),
         curve: shorter(&whole.curve, 1.0 - fraction),

@@ -63,7 +63,7 @@ fn cases() -> Vec<Case> {
         name,
         stretch: Stretch {
             s: [0.0, LENGTH],
-            piece: Piece { length: LENGTH, steps: STEPS, laws, loads },
+            piece: Piece { length: LENGTH, steps: STEPS, laws, loads, foundation: None },
             channels: Vec::new(),
             jumps: Vec::new(),
         },

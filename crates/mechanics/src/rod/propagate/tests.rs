@@ -6,7 +6,7 @@ fn slender(stretch: f64) -> LawTable {
     LawTable::Slender(vec![Slender { k0: [0.3, -0.5, 0.8], stretch, bend: [1.3, 1.0, 0.4] }])
 }
 
-fn laws() -> Vec<LawTable> {
+pub(crate) fn laws() -> Vec<LawTable> {
     let mut compliance = [[0.0; 6]; 6];
     for i in 0..6 {
         for j in 0..6 {
@@ -25,7 +25,7 @@ fn laws() -> Vec<LawTable> {
     ]
 }
 
-fn piece(laws: LawTable, loaded: bool) -> Piece {
+pub(crate) fn piece(laws: LawTable, loaded: bool) -> Piece {
     let loads = if loaded {
         vec![LoadSample {
             dead_force: [0.1, -0.6, 0.4],
@@ -36,10 +36,10 @@ fn piece(laws: LawTable, loaded: bool) -> Piece {
     } else {
         Vec::new()
     };
-    Piece { length: 1.2, steps: 3, laws, loads }
+    Piece { length: 1.2, steps: 3, laws, loads, foundation: None }
 }
 
-fn start<const W: usize>() -> RodState<W> {
+pub(crate) fn start<const W: usize>() -> RodState<W> {
     let norm = 30.0_f64.sqrt();
     RodState {
         rotation: [1.0 / norm, 2.0 / norm, -3.0 / norm, 4.0 / norm],
@@ -51,7 +51,7 @@ fn start<const W: usize>() -> RodState<W> {
 }
 
 /// The state after turning by `theta`, moving by `p`, and adding to the wrench.
-fn moved(base: &RodState<1>, x: &[f64; 12]) -> RodState<1> {
+pub(crate) fn moved(base: &RodState<1>, x: &[f64; 12]) -> RodState<1> {
     let angle = (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt();
     let s = if angle == 0.0 { 0.5 } else { (0.5 * angle).sin() / angle };
     let mut out = *base;
@@ -65,7 +65,7 @@ fn moved(base: &RodState<1>, x: &[f64; 12]) -> RodState<1> {
 }
 
 /// (small turning, position, force, moment) from `a` to `b`.
-fn difference(a: &RodState<1>, b: &RodState<1>) -> [f64; 12] {
+pub(crate) fn difference(a: &RodState<1>, b: &RodState<1>) -> [f64; 12] {
     let conjugate = [a.rotation[0], -a.rotation[1], -a.rotation[2], -a.rotation[3]];
     let q = unit_product(&b.rotation, &conjugate);
     let mut out = [0.0; 12];

@@ -60,7 +60,7 @@ fn laws() -> Vec<LawTable> {
 fn piece(laws: &LawTable, steps: usize) -> Piece {
     let [dead_force, dead_moment] = LOAD;
     let loads = vec![LoadSample { dead_force, dead_moment, ..LoadSample::default() }];
-    Piece { length: LENGTH, steps, laws: laws.clone(), loads }
+    Piece { length: LENGTH, steps, laws: laws.clone(), loads, foundation: None }
 }
 
 fn start<const W: usize>() -> RodState<W> {

@@ -145,6 +145,7 @@ fn one_tube_alone_is_a_plain_rod() {
             steps: 16,
             laws: LawTable::Slender(vec![law]),
             loads: several.loads.clone(),
+            foundation: None,
         };
         let (mut tube, mut plain) = (laned(), laned().rod);
         advance_tubes(&TubePiece { others: [const { None }; OTHERS], ..several }, 0.8, &mut tube);

@@ -18,7 +18,7 @@ use flexura_expression::{Binding, Expression, ExpressionError, Formula, Kind, Re
 use flexura_model::{
     At, BeamId, BodyId, CableId, JointId, Model, Output, Probe, ProbeTarget, Quantity, SpringId, TubesId,
 };
-use readable::{of_beam, of_body, of_joint, of_line, of_model, of_spring, of_tubes};
+use readable::{of_beam, of_body, of_joint, of_line, of_model, of_spring, of_tubes, of_whole_beam};
 use std::cell::Cell;
 use walk::Meaning;
 
@@ -205,8 +205,22 @@ impl Results<'_, '_> {
         };
         match named {
             Named::Beam => {
-                let at = place(context, &mut walk, text, name, silent)?;
-                walk.quantity(ProbeTarget::Beam(BeamId(position), at), &of_beam(), example)
+                let whole = walk.is_next("foundation_force");
+                let (at, list) = if whole {
+                    (At::Fraction(0.0), of_whole_beam())
+                } else {
+                    (place(context, &mut walk, text, name, silent)?, of_beam())
+                };
+                let meaning = walk.quantity(ProbeTarget::Beam(BeamId(position), at), &list, example)?;
+                let of_foundation =
+                    matches!(meaning.quantity, Quantity::Foundation | Quantity::FoundationForce);
+                // A beam that failed to build leaves the list short; that was recorded.
+                let beam = self.model.beams.get(position).filter(|beam| beam.name == name);
+                if of_foundation && beam.is_some_and(|beam| beam.foundation.is_empty()) {
+                    let error = ExpressionError::new(format!("beam `{name}` has no foundation"), walk.whole);
+                    return Err(error.with_hint("give it one: `foundation = { stiffness = \"1 kN/m^2\" }`"));
+                }
+                Ok(meaning)
             }
             Named::Joint => {
                 // A joint that failed to build leaves the list short; that was recorded.

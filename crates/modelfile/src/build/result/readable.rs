@@ -70,11 +70,17 @@ pub(super) fn of_beam() -> Vec<Readable> {
             name: "curvature",
             part: Part::Vector(Quantity::Curvature, Dimension::CURVATURE, ["k1", "k2", "k3"]),
         },
+        vector("foundation", Quantity::Foundation, Dimension::STIFFNESS),
         number("stretch", Quantity::Stretch, Dimension::NUMBER),
         number("strain", Quantity::Strain, Dimension::NUMBER),
         number("stress", Quantity::Stress, Dimension::PRESSURE),
     ]);
     list
+}
+
+/// Of a beam as a whole.
+pub(super) fn of_whole_beam() -> Vec<Readable> {
+    vec![vector("foundation_force", Quantity::FoundationForce, Dimension::FORCE)]
 }
 
 pub(super) fn of_body() -> Vec<Readable> {

@@ -33,6 +33,11 @@ impl<'r> Walk<'r> {
         Some((segment, span.clone()))
     }
 
+    /// Is this name next?
+    pub(in crate::build) fn is_next(&self, name: &str) -> bool {
+        matches!(self.segments.get(self.next), Some((Segment::Name(next), _)) if next == name)
+    }
+
     pub(in crate::build) fn name(
         &mut self,
         what: &str,

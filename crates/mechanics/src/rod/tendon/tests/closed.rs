@@ -14,7 +14,13 @@ fn a_straight_tendon_bends_its_rod_into_an_arc() {
     let (tension, y, length) = (2.5, 0.07, 3.0);
     for (stretch, k0) in [(0.0, 0.0), (0.01, 0.0), (0.0, 0.4)] {
         let law = Slender { k0: [0.0, 0.0, k0], stretch, bend: [1.0, 2.0, 5.0] };
-        let piece = Piece { length, steps: 16, laws: LawTable::Slender(vec![law]), loads: Vec::new() };
+        let piece = Piece {
+            length,
+            steps: 16,
+            laws: LawTable::Slender(vec![law]),
+            loads: Vec::new(),
+            foundation: None,
+        };
         let channel =
             Channel { tendon: 0, samples: vec![ChannelSample { offset: [y, 0.0], slope: [0.0; 2] }] };
         let (mut state, mut lengths) = (free_start::<1>(), [[0.0]]);
@@ -67,7 +73,7 @@ fn a_winding_tendon_bends_its_rod_into_a_helix() {
     let straight =
         Channel { tendon: 0, samples: vec![ChannelSample { offset: [radius, 0.0], slope: [0.0; 2] }] };
     for (k0, channel, unwind) in [(0.0, winding, omega * length), (omega, straight, 0.0)] {
-        let piece = Piece { length, steps, laws: law(k0), loads: Vec::new() };
+        let piece = Piece { length, steps, laws: law(k0), loads: Vec::new(), foundation: None };
         let (mut state, mut lengths) = (free_start::<1>(), [[0.0]]);
         advance_tendons(&piece, &[channel], &[[tension]], 1.0, &mut state, &mut lengths);
         assert!((Vector3::from(state.position) - end).norm() < 1e-12, "{:?} against {end}", state.position);
@@ -115,7 +121,7 @@ fn through_guides(
             let pull = (to - from).normalize() * tension;
             end.force = (force - pull).into();
             end.moment = (about_origin - p.cross(&force) - (from - p).cross(&pull)).into();
-            let piece = Piece { length: h, steps: 1, laws: law.clone(), loads: Vec::new() };
+            let piece = Piece { length: h, steps: 1, laws: law.clone(), loads: Vec::new(), foundation: None };
             advance(&piece, 1.0, &mut end);
             to = eye(&end, next);
         }
@@ -131,7 +137,7 @@ fn many_point_guides_converge_to_the_channel_with_order_two() {
     let total = [Vector3::new(0.2, -0.5, 0.3), Vector3::new(-0.1, 0.3, 0.2)];
     for law in laws() {
         let steps = 24;
-        let piece = Piece { length: LENGTH, steps, laws: law.clone(), loads: Vec::new() };
+        let piece = Piece { length: LENGTH, steps, laws: law.clone(), loads: Vec::new(), foundation: None };
         let mut state: RodState<1> = free_start();
         state.force = total[0].into();
         state.moment = total[1].into();

@@ -9,7 +9,8 @@ const STEPS: usize = 24;
 /// The clamp's moment that leaves the tip without moment, with its derivatives along both tensions, and
 /// there the tip, the lengths and all their lanes (1..=3 the moment, 4 and 5 the tensions).
 fn clamped(table: &LawTable, tensions: [f64; 2]) -> (Vector3<f64>, RodState<8>, [[f64; 8]; 2]) {
-    let piece = Piece { length: LENGTH, steps: STEPS, laws: table.clone(), loads: Vec::new() };
+    let piece =
+        Piece { length: LENGTH, steps: STEPS, laws: table.clone(), loads: Vec::new(), foundation: None };
     let channels = channels(STEPS);
     let mut moment = Vector3::zeros();
     for _ in 0..20 {
