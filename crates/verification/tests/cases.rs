@@ -122,6 +122,7 @@ conforms!(
     explicit_recipe,
     knee_slide,
     rolling_beam,
+    rolling_ellipsoids,
 );
 
 #[test]

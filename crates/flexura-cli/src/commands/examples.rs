@@ -43,6 +43,7 @@ const MODELS: &[(&str, &str)] = &bundled![
     "cam_follower",
     "clearance_pin",
     "coracoid_keel",
+    "wing",
     "ellipsoid_in_dish",
     "wing_ligaments",
     "bistable_beam",

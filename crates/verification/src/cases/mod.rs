@@ -3,6 +3,7 @@
 mod bend45;
 mod clamped_clamped;
 mod columns;
+mod contact;
 mod curves;
 mod deep_arch;
 mod elastica;
@@ -72,6 +73,7 @@ pub fn cases() -> Vec<Case> {
         &verdicts::CASES,
         &motion::CASES,
         &rolling::CASES,
+        &contact::CASES,
     ]
     .concat()
 }
