@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use flexura_model::{
-    At, Attachment, Curve, Drive, JointKind, Model, Mount, Profile, Quantity, SectionFrame, Shape, SpringLaw,
+    At, Attachment, Curve, Drive, FoundationLaw, JointKind, LoadAxes, Model, Mount, Profile, Quantity,
+    SectionFrame, Shape, SpringLaw,
 };
 use flexura_modelfile::{Document, reference_markdown, schema};
 use proptest::prelude::*;
@@ -192,7 +193,7 @@ fn every_table_arrives_in_the_model() {
     let [across, aside] = &straight.foundation[..] else { panic!() };
     let FoundationLaw::Linear(stiffness) = &across.law else { panic!() };
     close(stiffness.value(0.1, 0.1524), 2100.0);
-    assert_eq!((across.direction, across.axes), (Some(Vector3::z()), LoadAxes::Global));
+    assert_eq!((across.direction, across.axes), (Some(flexura_spatial::Vector3::z()), LoadAxes::Global));
     assert_eq!(across.between, [At::Fraction(0.0), At::Fraction(1.0)]);
     let FoundationLaw::Force(force) = &aside.law else { panic!() };
     close(force.value(0.01), 60.0);

@@ -148,7 +148,12 @@ fn buckle() -> Result<Vec<Row>, String> {
 
 impl File {
     /// The first critical values of a parameter about its value of zero, with their estimated errors.
-    fn buckle(&self, values: &[(&str, f64)], parameter: &str, count: usize) -> Result<Vec<(f64, f64)>, String> {
+    fn buckle(
+        &self,
+        values: &[(&str, f64)],
+        parameter: &str,
+        count: usize,
+    ) -> Result<Vec<(f64, f64)>, String> {
         let overrides = Self::overrides(values);
         let model = self.document.model(&overrides).map_err(|report| report.render(false))?;
         let position = model.parameters.iter().position(|p| p.name == parameter);
