@@ -16,8 +16,8 @@ fn model(text: &str) -> flexura::model::Model {
 
 fn solved(text: &str) -> Solution {
     let options = Options { samples: 5, tolerance: 1e-12, ..Options::default() };
-    let solution =
-        solve(&model(text), &options, &mut |_| {}).unwrap_or_else(|e| panic!("{}: {}\n{text}", e.path, e.message));
+    let solution = solve(&model(text), &options, &mut |_| {})
+        .unwrap_or_else(|e| panic!("{}: {}\n{text}", e.path, e.message));
     assert_eq!(solution.status, Status::Converged, "{:?}\n{text}", solution.reason);
     solution
 }
@@ -77,7 +77,11 @@ fn potential(solution: &Solution) -> f64 {
 /// The contact does no work, slipping or not: what drives the angle is the slope of the potential.
 #[test]
 fn the_effort_is_the_slope_of_the_potential() {
-    for slide in ["", "slide = { kind = \"ratio\", ratio = 2 }", "slide = { kind = \"law\", slide = \"0.05 m*sin(q)\" }"] {
+    for slide in [
+        "",
+        "slide = { kind = \"ratio\", ratio = 2 }",
+        "slide = { kind = \"law\", slide = \"0.05 m*sin(q)\" }",
+    ] {
         for angle in [-0.8, 0.3, 1.1, 2.0] {
             let h = 1e-3;
             let at = |x: f64| potential(&solved(&rocker(angle + x, slide, HERE)));
@@ -93,7 +97,13 @@ fn the_effort_is_the_slope_of_the_potential() {
 fn no_work_is_left_on_a_closed_path() {
     // Both ellipses closed: forth and back over the same angles at Gauss points, and the difference of potentials between.
     let (from, to) = (-0.9, 1.4);
-    let nodes = [(-0.9061798459386640, 0.2369268850561891), (-0.5384693101056831, 0.4786286704993665), (0.0, 0.5688888888888889), (0.5384693101056831, 0.4786286704993665), (0.9061798459386640, 0.2369268850561891)];
+    let nodes = [
+        (-0.9061798459386640, 0.2369268850561891),
+        (-0.5384693101056831, 0.4786286704993665),
+        (0.0, 0.5688888888888889),
+        (0.5384693101056831, 0.4786286704993665),
+        (0.9061798459386640, 0.2369268850561891),
+    ];
     let panels = 8;
     let mut work = 0.0;
     for panel in 0..panels {
@@ -219,17 +229,31 @@ fn nonsense_gets_its_message() {
     for (text, wanted) in [
         (of("{ kind = \"ellipse\", semi_axes = [0.02, 0] }", floor, ""), "semi-axis along y"),
         (
-            of("{ kind = \"expression\", x = \"sin(2*t)\", y = \"sin(t)\", range = [0, \"2*pi\"], closed = true }", floor, ""),
+            of(
+                "{ kind = \"expression\", x = \"sin(2*t)\", y = \"sin(t)\", range = [0, \"2*pi\"], closed = true }",
+                floor,
+                "",
+            ),
             "crosses itself",
         ),
         (of(circle, floor, ""), "do not touch in the initial poses: they are 10.000000 mm apart"),
-        (of(circle, "{ kind = \"circle\", radius = 0.01 }", "concave = true\nstart = [0, 0]"), "does not fit into it"),
         (
-            of(circle, "{ kind = \"line\", normal = [0, 1], range = [-0.01, 0.01] }", "close = true\ncoordinate = \"90 deg\"")
-                .replace("stiffness = 1\n", ""),
+            of(circle, "{ kind = \"circle\", radius = 0.01 }", "concave = true\nstart = [0, 0]"),
+            "does not fit into it",
+        ),
+        (
+            of(
+                circle,
+                "{ kind = \"line\", normal = [0, 1], range = [-0.01, 0.01] }",
+                "close = true\ncoordinate = \"90 deg\"",
+            )
+            .replace("stiffness = 1\n", ""),
             "lies beyond the end",
         ),
-        (of(circle, floor, "close = true\nslide = { kind = \"law\", slide = \"0.1 m + 0 m*q\" }"), "must be zero"),
+        (
+            of(circle, floor, "close = true\nslide = { kind = \"law\", slide = \"0.1 m + 0 m*q\" }"),
+            "must be zero",
+        ),
         (of(floor, floor, "close = true"), "both boundaries are straight lines"),
     ] {
         let message = refused(&text);

@@ -10,11 +10,13 @@ use flexura::{Options, solve};
 
 fn solved(values: &[(&str, &str)]) -> Solution {
     let text = include_str!("../../../models/wing.toml");
-    let overrides: Vec<(String, String)> = values.iter().map(|(name, value)| ((*name).to_string(), (*value).to_string())).collect();
+    let overrides: Vec<(String, String)> =
+        values.iter().map(|(name, value)| ((*name).to_string(), (*value).to_string())).collect();
     let model = Document::parse(text, "wing.toml").and_then(|document| document.model(&overrides));
     let model = model.unwrap_or_else(|report| panic!("{report}"));
     let options = Options { samples: 401, tolerance: 1e-11, ..Options::default() };
-    let solution = solve(&model, &options, &mut |_| {}).unwrap_or_else(|e| panic!("{}: {}", e.path, e.message));
+    let solution =
+        solve(&model, &options, &mut |_| {}).unwrap_or_else(|e| panic!("{}: {}", e.path, e.message));
     assert_eq!(solution.status, Status::Converged, "{values:?}: {:?}", solution.reason);
     solution
 }

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use flexura_model::{
-    At, Attachment, Curve, Drive, JointKind, Model, Mount, Profile, Quantity, SectionFrame, Shape, SpringLaw,
+    At, Attachment, Curve, Drive, FoundationLaw, JointKind, LoadAxes, Model, Mount, Profile, Quantity,
+    SectionFrame, Shape, SpringLaw,
 };
 use flexura_modelfile::{Document, reference_markdown, schema};
 use proptest::prelude::*;
@@ -44,6 +45,11 @@ end = { body = "slider", hold = "revolute", axis = [0, 0, 2], stiffness = "0.69 
 distributed = [
   { force = [0, 0, "-2 N/m"] },
   { moment = ["0.1 N*m/m", 0, "1e-3*s"], frame = "section" },
+]
+
+foundation = [
+  { stiffness = "2 kN/m^2 + 1 kN/m^3*s", direction = [0, 0, 2] },
+  { force = "1 kN/m^2*u + 5e7 N/m^4*u^3", direction = [0, 1, 0], axes = "section", from = 0.25, to = "100 mm" },
 ]
 
 [beam.arc]
@@ -184,6 +190,15 @@ fn every_table_arrives_in_the_model() {
     close(end.hold.coordinates[0].rest, 30f64.to_radians());
     assert_eq!(straight.distributed.len(), 2);
     close(straight.distributed[1].moment[2].value(0.1, 1.0), 1e-4);
+    let [across, aside] = &straight.foundation[..] else { panic!() };
+    let FoundationLaw::Linear(stiffness) = &across.law else { panic!() };
+    close(stiffness.value(0.1, 0.1524), 2100.0);
+    assert_eq!((across.direction, across.axes), (Some(flexura_spatial::Vector3::z()), LoadAxes::Global));
+    assert_eq!(across.between, [At::Fraction(0.0), At::Fraction(1.0)]);
+    let FoundationLaw::Force(force) = &aside.law else { panic!() };
+    close(force.value(0.01), 60.0);
+    close(force.jet(0.01)[1], 16000.0);
+    assert_eq!((aside.axes, aside.between), (LoadAxes::Section, [At::Fraction(0.25), At::Length(0.1)]));
 
     let Curve::Helix { turns, .. } = model.beams[2].curve else { panic!() };
     assert_eq!(turns, 10.0);

@@ -6,7 +6,7 @@
 mod common;
 
 use common::{model, rich, solution};
-use flexura_output::{beams_csv, model_vtp, shape_svg};
+use flexura_output::{beams_csv, document, model_vtp, shape_svg, solution_of, to_json};
 use flexura_post::evaluate;
 use std::process::Command;
 
@@ -26,6 +26,50 @@ fn the_table_has_a_row_for_each_sample() {
     // The second beam's name holds quotes, and it has no stress.
     assert!(rows[22].starts_with("\"wire <\"\"b\"\">\",0.0,"));
     assert!(rows[22].ends_with(",,"));
+}
+
+/// The model and its solution with the strip on a foundation along its second half.
+fn founded() -> (flexura_model::Model, flexura_solution::Solution) {
+    use flexura_model::{At, Foundation, FoundationLaw, LoadAxes};
+    let (mut model, mut solution) = (model(), solution());
+    model.beams[0].foundation.push(Foundation {
+        law: FoundationLaw::Linear(30.0.into()),
+        direction: None,
+        axes: LoadAxes::Global,
+        between: [At::Fraction(0.5), At::Fraction(1.0)],
+    });
+    solution.beams[0].foundation_force = flexura_spatial::Vector3::new(0.0, 0.5, -0.25);
+    for (i, sample) in solution.beams[0].samples.iter_mut().enumerate() {
+        sample.foundation = flexura_spatial::Vector3::new(0.5 * i as f64, 0.0, -1.0);
+    }
+    (model, solution)
+}
+
+#[test]
+fn foundations_have_columns_a_band_and_lists_only_where_there_are_any() {
+    let (model, solution) = founded();
+    let evaluation = evaluate(&model, &solution).unwrap();
+    let text = beams_csv(&model, &solution, &evaluation).unwrap();
+    let rows: Vec<&str> = text.lines().collect();
+    assert!(rows[0].ends_with(",stress[Pa],qx[N/m],qy[N/m],qz[N/m]"));
+    assert!(rows.iter().all(|row| row.split(',').count() == 24));
+    assert!(rows[3].ends_with(",1.0,0.0,-1.0"));
+    assert!(rows[22].ends_with(",,,,,"));
+
+    let text = shape_svg(&model, &solution);
+    assert!(text.contains(">foundation<"));
+    // One band in three views, and one in the legend.
+    assert_eq!(text.matches("stroke=\"#ece0c8\"").count(), 4);
+
+    let document = document(&model, &solution, &evaluation).unwrap();
+    let value: serde_json::Value = serde_json::from_str(&to_json(&document).unwrap()).unwrap();
+    let strip = &value["beams"]["strip"];
+    assert_eq!(strip["foundation"][3], serde_json::json!([1.5, 0.0, -1.0]));
+    assert_eq!(strip["foundation_force"], serde_json::json!([0.0, 0.5, -0.25]));
+    assert!(value["beams"]["wire <\"b\">"].get("foundation").is_none());
+    let back = solution_of(&document, &model).unwrap();
+    assert_eq!(back.beams[0].samples[3].foundation, solution.beams[0].samples[3].foundation);
+    assert_eq!(back.beams[0].foundation_force, solution.beams[0].foundation_force);
 }
 
 #[test]

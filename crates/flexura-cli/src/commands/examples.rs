@@ -54,6 +54,8 @@ const MODELS: &[(&str, &str)] = &bundled![
     "cartwheel_hinge",
     "cross_spring_pivot",
     "deep_arch",
+    "clavicle",
+    "column_on_foundation",
     "ends_cantilever",
     "ends_clamped",
     "ends_pinned",

@@ -37,6 +37,9 @@ const INK: &str = "#222222";
 const FAINT: &str = "#9a9a9a";
 const LOAD: &str = "#b2182b";
 const CABLE: &str = "#7b3294";
+const FOUNDATION: &str = "#ece0c8";
+/// Width of the band that stands for a foundation, px.
+const BAND: f64 = 14.0;
 /// Beams that the legend names one by one.
 const LEGEND_BEAMS: usize = 6;
 
@@ -92,6 +95,9 @@ fn draw_axes(canvas: &mut Canvas, sheet: &Sheet, panel: &Panel) {
 }
 
 fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
+    for foundation in &scene.foundations {
+        canvas.curve(&pieces(panel, foundation), &Style::line(FOUNDATION, BAND));
+    }
     let initial = Style::line(FAINT, 1.2).dashed("5 4");
     for body in &scene.bodies {
         for arm in &body.arms {
@@ -159,6 +165,7 @@ enum Entry {
     Initial,
     Beam { name: String, colour: &'static str },
     MoreBeams(usize),
+    Foundation,
     Body,
     Cable,
     Support,
@@ -172,6 +179,9 @@ fn legend_entries(scene: &Scene) -> Vec<Entry> {
     }
     if scene.beams.len() > LEGEND_BEAMS {
         entries.push(Entry::MoreBeams(scene.beams.len() - LEGEND_BEAMS));
+    }
+    if !scene.foundations.is_empty() {
+        entries.push(Entry::Foundation);
     }
     if !scene.bodies.is_empty() {
         entries.push(Entry::Body);
@@ -202,6 +212,10 @@ fn draw_legend(canvas: &mut Canvas, origin: [f64; 2], entries: &[Entry]) {
                 shortened(name, 20)
             }
             Entry::MoreBeams(count) => format!("and {count} more"),
+            Entry::Foundation => {
+                canvas.line(left, right, &Style::line(FOUNDATION, BAND));
+                "foundation".to_owned()
+            }
             Entry::Body => {
                 marks::diamond(canvas, middle, true);
                 "rigid body".to_owned()

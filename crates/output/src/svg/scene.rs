@@ -86,6 +86,8 @@ pub struct CableMark {
 /// All of it.
 pub struct Scene {
     pub beams: Vec<BeamLine>,
+    /// Where beams lie at rest on elastic foundations.
+    pub foundations: Vec<Vec<Knot>>,
     pub bodies: Vec<BodyMark>,
     pub supports: Vec<Support>,
     pub joints: Vec<JointMark>,
@@ -137,6 +139,7 @@ impl Scene {
         }
         Self {
             beams: beams.chain(tubes).collect(),
+            foundations: foundations(model, solution),
             bodies,
             supports,
             joints,
@@ -288,6 +291,19 @@ pub fn final_pose(solution: &Solution, mount: Mount) -> Pose {
         Mount::Beam(place) => sample_at(solution, place).map_or_else(Pose::identity, |s| s.pose),
         Mount::Body(id) => solution.bodies.get(id.0).copied().unwrap_or_else(Pose::identity),
     }
+}
+
+fn foundations(model: &Model, solution: &Solution) -> Vec<Vec<Knot>> {
+    let beams = model.beams.iter().zip(&solution.beams);
+    let each = beams.flat_map(|(beam, result)| {
+        beam.foundation.iter().map(move |foundation| {
+            let [from, to] = foundation.between.map(|at| at.arc_length(result.length));
+            let near = 1e-9 * result.length;
+            let along = |sample: &&BeamSample| (from - near..=to + near).contains(&sample.s);
+            result.samples.iter().filter(along).map(Knot::initial).collect()
+        })
+    });
+    each.collect()
 }
 
 fn cables(model: &Model, solution: &Solution) -> Vec<CableMark> {
