@@ -98,11 +98,11 @@ fn no_work_is_left_on_a_closed_path() {
     // Both ellipses closed: forth and back over the same angles at Gauss points, and the difference of potentials between.
     let (from, to) = (-0.9, 1.4);
     let nodes = [
-        (-0.9061798459386640, 0.2369268850561891),
+        (-0.906_179_845_938_664, 0.2369268850561891),
         (-0.5384693101056831, 0.4786286704993665),
         (0.0, 0.5688888888888889),
         (0.5384693101056831, 0.4786286704993665),
-        (0.9061798459386640, 0.2369268850561891),
+        (0.906_179_845_938_664, 0.2369268850561891),
     ];
     let panels = 8;
     let mut work = 0.0;
