@@ -20,6 +20,8 @@ use std::process::Command;
 /// Pictures: name, which of the files that are written it is, and the arguments of the command that draws it.
 const PICTURES: &[(&str, &str, &[&str])] = &[
     ("compression_spring", "shape.svg", &["solve", "models/compression_spring.toml", "--set", "push=5 N"]),
+    ("ellipse_on_circle", "roll/shapes.svg", &["run", "models/ellipse_on_circle.toml", "roll"]),
+    ("explicit_recipe", "compare/diagram.svg", &["run", "models/explicit_recipe.toml", "compare"]),
     ("four_bar", "shape.svg", &["solve", "models/four_bar.toml"]),
     ("half_ring", "shape.svg", &["solve", "models/half_ring.toml", "--set", "theta=60 deg"]),
     ("knee_leg", "flexion/motion.svg", &["run", "models/knee_leg.toml", "flexion"]),

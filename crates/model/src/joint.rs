@@ -111,6 +111,12 @@ impl JointKind {
         }
     }
 
+    /// How many coordinates, the first ones, mean something by themselves. Where a contact is on its surface is read off as a
+    /// point instead: what its parameters are depends on the surface.
+    pub fn named_coordinates(self) -> usize {
+        if self == JointKind::Contact { 3 } else { self.freedoms() }
+    }
+
     /// What each coordinate is, in order.
     pub fn coordinate_kinds(self) -> &'static [CoordinateKind] {
         use CoordinateKind::{Angle, Length};

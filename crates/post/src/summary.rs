@@ -200,11 +200,13 @@ pub fn summarise(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
                 let is_only = kind.freedoms() == 1;
                 let values = result.coordinates.iter().zip(&result.efforts);
                 let names = kind.coordinate_kinds().iter().zip(kind.coordinate_names());
-                let coordinates = values.zip(names).map(|((value, effort), (kind, name))| {
-                    let (unit, effort_unit) = coordinate_units(*kind);
-                    let name = if is_only { "" } else { *name };
-                    CoordinateSummary { name, value: *value, unit, effort: *effort, effort_unit }
-                });
+                let coordinates = values.zip(names).take(kind.named_coordinates()).map(
+                    |((value, effort), (kind, name))| {
+                        let (unit, effort_unit) = coordinate_units(*kind);
+                        let name = if is_only { "" } else { *name };
+                        CoordinateSummary { name, value: *value, unit, effort: *effort, effort_unit }
+                    },
+                );
                 JointSummary {
                     name: joint.name.clone(),
                     coordinates: coordinates.collect(),

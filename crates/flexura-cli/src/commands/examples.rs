@@ -44,6 +44,8 @@ const MODELS: &[(&str, &str)] = &bundled![
     "clearance_pin",
     "coracoid_keel",
     "wing",
+    "egg",
+    "measured_condyle",
     "ellipsoid_in_dish",
     "wing_ligaments",
     "bistable_beam",

@@ -113,8 +113,7 @@ pub(in crate::build) fn coordinates(kind: JointKind) -> Vec<Readable> {
         return vec![vector("coordinate", Quantity::Coordinate, Dimension::ANGLE)];
     }
     let mut list = Vec::new();
-    // Where a contact is on a surface is read off as a point: what its parameters are depends on the surface.
-    let count = if kind == JointKind::Contact { 3 } else { kind.freedoms() };
+    let count = kind.named_coordinates();
     let each = kind.coordinate_names().iter().zip(kind.coordinate_kinds()).take(count);
     for (i, (name, kind)) in each.enumerate() {
         let dimension = match kind {
@@ -216,7 +215,7 @@ fn of_coordinates(
         (JointKind::Spherical, _) => Some(vector(name, quantity, angle)),
         (_, [only]) => Some(number(name, quantity, dimension(*only))),
         (_, kinds) => {
-            let each = kind.coordinate_names().iter().zip(kinds).enumerate();
+            let each = kind.coordinate_names().iter().zip(kinds).take(kind.named_coordinates()).enumerate();
             let parts = each.map(|(i, (name, kind))| Readable {
                 name,
                 part: Part::Number(quantity, dimension(*kind), i),
