@@ -213,6 +213,8 @@ fn draw_legend(canvas: &mut Canvas, origin: [f64; 2], entries: &[Entry]) {
             }
             Entry::MoreBeams(count) => format!("and {count} more"),
             Entry::Foundation => {
+                // Its round ends reach as far as the other lines do.
+                let [left, right] = [left[0] + 0.5 * BAND, right[0] - 0.5 * BAND].map(|x| [x, y]);
                 canvas.line(left, right, &Style::line(FOUNDATION, BAND));
                 "foundation".to_owned()
             }
