@@ -28,14 +28,14 @@ fn turning((a, b): (f64, f64), psi: f64) -> f64 {
 /// Centre (x, z), mm, of the upper section ellipse that has turned by `angle` about y.
 fn centre(angle: f64) -> Option<[f64; 2]> {
     let (child, parent) = ((9.2, 2.3), (10.2, 1.9));
-    let psi_of = |travel: f64, ellipse| root(|psi| arc(ellipse, psi) - travel, -1.5, 1.5);
+    let psi_of = |travel: f64, ellipse| root(|psi| arc(ellipse, psi) - travel, -1.57, 1.57);
     let travel = root(
         |s| match (psi_of(s, child), psi_of(s, parent)) {
             (Some(p), Some(q)) => turning(child, p) + turning(parent, q) - angle,
             _ => f64::NAN,
         },
-        -8.0,
-        8.0,
+        -9.7,
+        9.7,
     )?;
     let (p, q) = (psi_of(travel, child)?, psi_of(travel, parent)?);
     let (sin, cos) = angle.sin_cos();
