@@ -66,7 +66,15 @@ impl Equilibrium {
 
     /// Replaces the wrenches of joints by those of least norm.
     pub(crate) fn least_norm(&mut self) {
-        if self.slack.is_empty() || self.evaluate(true).is_err() {
+        if self.slack.is_empty() {
+            return;
+        }
+        // A factorised tangent is still needed by what goes on from here, with the residual that belongs to it.
+        let (kept, r) = (self.tangent.clone(), self.r.clone());
+        let evaluated = self.evaluate(true);
+        let fresh = std::mem::replace(&mut self.tangent, kept);
+        self.r = r;
+        if evaluated.is_err() {
             return;
         }
         let joints = self.layout.joints.clone();
@@ -82,7 +90,7 @@ impl Equilibrium {
             place
         };
         let (row, column) = (place(&rows, self.layout.interface), place(&closures, self.layout.interface));
-        self.tangent.for_each(|i, j, value| {
+        fresh.for_each(|i, j, value| {
             if let (Some(i), Some(j)) = (row[i], column[j]) {
                 matrix[(i, j)] += value;
             }
