@@ -136,7 +136,7 @@ pub enum Slide {
         /// Slide, m.
         slide: Function,
     },
-    /// No slip, but the travel in steps of the coordinate, each with the radius of curvature at its beginning: the seed's
+    /// No slip, but the travel in steps of the coordinate, each with the radius of curvature at its beginning: the thesis's
     /// explicit recipe, first order in the step.
     Stepped {
         /// Step of the coordinate.

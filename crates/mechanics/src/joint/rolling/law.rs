@@ -269,7 +269,7 @@ impl RollingLaw {
         Some([a, da, dda])
     }
 
-    /// The seed's recipe: in every step of q the travel has the radius at its beginning.
+    /// The thesis's recipe: in every step of q the travel has the radius at its beginning.
     fn stepped(&self, q: f64, step: f64) -> Option<Jet> {
         let sign = q.signum();
         let mut a = 0.0;

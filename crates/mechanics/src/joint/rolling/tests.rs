@@ -128,7 +128,7 @@ fn a_hollow_that_is_too_narrow_is_refused() {
     assert!(joint(of(1.2, Slide::None), RollingCoordinate::Turning).is_ok());
 }
 
-/// The seed's explicit recipe converges to the exact arc with the first order.
+/// The thesis's explicit recipe converges to the exact arc with the first order.
 #[test]
 fn the_explicit_recipe_is_of_first_order() {
     let psi = |step: f64| {
