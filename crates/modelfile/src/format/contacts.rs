@@ -1,6 +1,6 @@
 //! Tables of what rolls and slides on what.
 
-use super::tables::{key, variant};
+use super::tables::{FIRST_COORDINATE, PARAMETER, PARAMETER_RANGE, SECOND_COORDINATE, key, variant};
 use super::{Key, Need, Shape, Table, Variants};
 use Need::{Default, Optional, Required};
 use flexura_expression::Dimension as D;
@@ -144,22 +144,10 @@ pub(crate) static BOUNDARY: Table = Table {
                 "expression",
                 "(x(t), y(t)).",
                 &[
-                    key("x", Shape::Function(D::LENGTH), Required, "\"10 mm*cos(t)\"", "First coordinate."),
-                    key("y", Shape::Function(D::LENGTH), Required, "\"5 mm*sin(t)\"", "Second coordinate."),
-                    key(
-                        "parameter",
-                        Shape::Text,
-                        Default("\"t\""),
-                        "\"u\"",
-                        "The parameter's name in the expressions.",
-                    ),
-                    key(
-                        "range",
-                        Shape::Range(D::NUMBER),
-                        Required,
-                        "[0, \"2*pi\"]",
-                        "First and last value of the parameter; it bears their unit.",
-                    ),
+                    FIRST_COORDINATE,
+                    SECOND_COORDINATE,
+                    PARAMETER,
+                    PARAMETER_RANGE,
                     key(
                         "closed",
                         Shape::Flag,

@@ -30,6 +30,20 @@ pub(super) const fn table(doc: &'static str, keys: &'static [Key]) -> Table {
     Table { doc, keys, variants: None }
 }
 
+pub(super) const FIRST_COORDINATE: Key =
+    key("x", Shape::Function(D::LENGTH), Required, "\"10 mm*cos(t)\"", "First coordinate.");
+pub(super) const SECOND_COORDINATE: Key =
+    key("y", Shape::Function(D::LENGTH), Required, "\"5 mm*sin(t)\"", "Second coordinate.");
+pub(super) const PARAMETER: Key =
+    key("parameter", Shape::Text, Default("\"t\""), "\"u\"", "The parameter's name in the expressions.");
+pub(super) const PARAMETER_RANGE: Key = key(
+    "range",
+    Shape::Range(D::NUMBER),
+    Required,
+    "[0, \"2*pi\"]",
+    "First and last value of the parameter; it bears their unit.",
+);
+
 pub(crate) static FILE: Table = table(
     "A compliant mechanism.",
     &[
@@ -247,23 +261,11 @@ pub(crate) static CURVE: Table = Table {
                 "parametric",
                 "A curve given by its coordinates as functions of a parameter.",
                 &[
-                    key("x", Shape::Function(D::LENGTH), Required, "\"10 mm*cos(t)\"", "First coordinate."),
-                    key("y", Shape::Function(D::LENGTH), Required, "\"5 mm*sin(t)\"", "Second coordinate."),
+                    FIRST_COORDINATE,
+                    SECOND_COORDINATE,
                     key("z", Shape::Function(D::LENGTH), Default("0"), "\"1 mm*t\"", "Third coordinate."),
-                    key(
-                        "parameter",
-                        Shape::Text,
-                        Default("\"t\""),
-                        "\"u\"",
-                        "The parameter's name in the expressions.",
-                    ),
-                    key(
-                        "range",
-                        Shape::Range(D::NUMBER),
-                        Required,
-                        "[0, \"2*pi\"]",
-                        "First and last value of the parameter; it bears their unit.",
-                    ),
+                    PARAMETER,
+                    PARAMETER_RANGE,
                 ],
             ),
             variant(
