@@ -25,6 +25,15 @@ impl Coordinates {
     /// `initial_pose` is X_FM in the initial poses, nondimensional.
     pub fn new(law: &JointLaw, scale: &Scale, initial_pose: &Pose) -> Result<Self, ContactError> {
         let joint = Joint::new(law, scale.length, &scale.pose_out(initial_pose))?;
+        Ok(Self::with(joint, law, scale, initial_pose))
+    }
+
+    /// No motion at all.
+    pub fn weld(scale: &Scale) -> Self {
+        Self::with(Joint::weld(), &JointLaw::weld(), scale, &Pose::identity())
+    }
+
+    fn with(joint: Joint, law: &JointLaw, scale: &Scale, initial_pose: &Pose) -> Self {
         let mut units = [1.0; MAX_FREEDOMS];
         for (unit, kind) in units.iter_mut().zip(law.kind.coordinate_kinds()) {
             *unit = if *kind == CoordinateKind::Length { scale.length } else { 1.0 };
@@ -37,7 +46,7 @@ impl Coordinates {
             .collect();
         let free =
             (0..laws.len()).filter(|&i| matches!(laws[i].drive, Drive::Free { .. })).collect::<Vec<_>>();
-        Ok(Self {
+        Self {
             kind: law.kind,
             initial: joint.nearest(initial_pose),
             joint,
@@ -45,15 +54,6 @@ impl Coordinates {
             free,
             spin_held: None,
             units,
-        })
-    }
-
-    /// The same of a law without a contact, as holds of beams have.
-    pub fn plain(law: &JointLaw, scale: &Scale, initial_pose: &Pose) -> Self {
-        match Self::new(law, scale, initial_pose) {
-            Ok(coordinates) => coordinates,
-            // Only contacts can make no sense.
-            Err(_) => Self::plain(&JointLaw::weld(), scale, initial_pose),
         }
     }
 

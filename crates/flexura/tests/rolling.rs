@@ -3,9 +3,12 @@
 // Clippy takes helpers of tests for code that must not panic.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod support;
+
 use flexura::modelfile::Document;
 use flexura::solution::{Solution, Status};
 use flexura::{Equilibrium, Options, solve};
+use support::{bundled, run};
 
 fn model(text: &str) -> flexura::model::Model {
     match Document::parse(text, "model.toml").and_then(|document| document.model(&[])) {
@@ -285,4 +288,17 @@ force = [1, 0, 0]
     assert_eq!(solution.status, Status::Stalled);
     let reason = solution.reason.unwrap();
     assert!(reason.contains("joint.roll") && reason.contains("boundaries ends"), "{reason}");
+}
+
+#[test]
+fn a_path_that_comes_to_the_end_of_a_bowl_says_so() {
+    let text = bundled("ellipse_in_bowl.toml", "parameter = \"turned\"\nrange = [\"0 deg\", \"150 deg\"]");
+    let run = run(&text, &[], 1e-10);
+    assert_eq!(run.trace.status, Status::Stalled);
+    let branch = &run.trace.branches[0];
+    // A quarter of the bowl's ellipse: see the case `ellipse_in_bowl`.
+    let last = branch.points.last().unwrap().parameter.to_degrees();
+    assert!((last - 131.837).abs() < 1e-2, "{last}");
+    let end = format!("{:?}", branch.ends);
+    assert!(end.contains("joint.roll") && end.contains("boundaries ends"), "{end}");
 }

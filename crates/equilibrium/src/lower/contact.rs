@@ -16,6 +16,7 @@ pub(super) fn problem(joint: &Joint, error: &ContactError) -> ProblemError {
     let (key, hint) = match error {
         ContactError::Boundary { which: "child", .. } => ("child_curve", "mend the child's boundary"),
         ContactError::Boundary { .. } => ("parent_curve", "mend the parent's boundary"),
+        ContactError::Missing => ("kind", "give both of its boundaries or surfaces"),
         ContactError::NotConvex => ("by", "use `by = \"angle\"` or `by = \"arc\"`"),
         ContactError::BothStraight => {
             ("parent_curve", "make one of the two a curve, or use a prismatic joint")

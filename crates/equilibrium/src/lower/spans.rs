@@ -10,7 +10,7 @@ use crate::error::ProblemError;
 use crate::scale::Scale;
 use flexura_mechanics::joint::Kinematics;
 use flexura_mechanics::load::PointLoad;
-use flexura_model::{BeamPoint, End, JointKind, JointLaw, LoadTarget, Model, Mount};
+use flexura_model::{BeamPoint, End, JointKind, LoadTarget, Model, Mount};
 use flexura_spatial::{Pose, Twist, Vector3, Wrench};
 
 /// Where every beam lies in the undeformed mechanism. A beam held by another beam follows from it.
@@ -145,7 +145,7 @@ pub(super) fn lower_beam(model: &Model, lowered: &mut Lowered, beam: usize) -> R
     for (end, s, start) in [(&description.start, 0.0, true), (&description.end, length, false)] {
         if let (Some(end), Some(node)) = (end, hub_at(s)) {
             let hold =
-                held(lowered, end, beam, s, &format!("{path}.{}", if start { "start" } else { "end" }));
+                held(lowered, end, beam, s, &format!("{path}.{}", if start { "start" } else { "end" }))?;
             lowered.joints.push(NodeJoint {
                 origin: JointOrigin::Hold { beam, start },
                 parent: hold.carrier,
@@ -169,12 +169,12 @@ pub(super) fn lower_beam(model: &Model, lowered: &mut Lowered, beam: usize) -> R
         let last = i + 2 == stations.len();
         let start = match (from, &description.start) {
             (Some(node), _) => weld(&scale, node),
-            (None, Some(end)) => held(lowered, end, beam, 0.0, &format!("{path}.start")),
+            (None, Some(end)) => held(lowered, end, beam, 0.0, &format!("{path}.start"))?,
             (None, None) => continue,
         };
         let end = match (to, &description.end) {
             (Some(node), _) => Some(weld(&scale, node)),
-            (None, Some(end)) => Some(held(lowered, end, beam, length, &format!("{path}.end"))),
+            (None, Some(end)) => Some(held(lowered, end, beam, length, &format!("{path}.end"))?),
             (None, None) => None,
         };
         let inside: Vec<Jump> = jumps
@@ -209,7 +209,7 @@ pub(super) fn lower_beam(model: &Model, lowered: &mut Lowered, beam: usize) -> R
 fn weld(scale: &Scale, node: usize) -> Hold {
     Hold {
         carrier: Carrier { node: Some(node), frame: Pose::identity() },
-        coordinates: Coordinates::plain(&JointLaw::weld(), scale, &Pose::identity()),
+        coordinates: Coordinates::weld(scale),
         mismatch: Twist { angular: Vector3::zeros(), linear: Vector3::zeros() },
     }
 }
@@ -237,7 +237,7 @@ fn point_loads(model: &Model, scale: &Scale, beam: usize, length: f64) -> Vec<Ju
 }
 
 /// The hold of a beam's end at `s`, with the mismatch that is preload.
-fn held(lowered: &mut Lowered, end: &End, beam: usize, s: f64, path: &str) -> Hold {
+fn held(lowered: &mut Lowered, end: &End, beam: usize, s: f64, path: &str) -> Result<Hold, ProblemError> {
     let node = lowered.node_of(end.mount);
     let rest = lowered.rest_pose(beam, s);
     // An end without a placement attaches where the stress-free beam is; for the end that the beam was laid
@@ -248,7 +248,9 @@ fn held(lowered: &mut Lowered, end: &End, beam: usize, s: f64, path: &str) -> Ho
     };
     let carrier = Carrier { node, frame };
     let offset = lowered.carrier_pose(&carrier).inverse() * rest;
-    let coordinates = Coordinates::plain(&end.hold, &lowered.scale, &offset);
+    let coordinates = Coordinates::new(&end.hold, &lowered.scale, &offset).map_err(|error| {
+        ProblemError::new(path, error.to_string(), "hold the end by a body, and put the contact there")
+    })?;
     let left = coordinates.joint.pose(&coordinates.initial).inverse() * offset;
     let mismatch = left.log();
     if mismatch.linear.norm() > SNUG || mismatch.angular.norm() > SNUG {
@@ -258,7 +260,7 @@ fn held(lowered: &mut Lowered, end: &End, beam: usize, s: f64, path: &str) -> Ho
             mismatch.angular.norm().to_degrees(),
         ));
     }
-    Hold { carrier, coordinates, mismatch }
+    Ok(Hold { carrier, coordinates, mismatch })
 }
 
 /// Two balls leave a beam's turning about the line between them free; it is held at zero.

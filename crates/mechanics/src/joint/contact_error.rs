@@ -13,6 +13,9 @@ pub enum ContactError {
         /// What is wrong with it.
         source: BoundaryError,
     },
+    /// A kind of joint whose two sides touch, without what touches.
+    #[error("the joint has no boundaries or surfaces that belong to its kind")]
+    Missing,
     /// The turning of a tangent says where the contact is on convex boundaries only.
     #[error(
         "the child's boundary is not curved outwards everywhere, so its turning does not say where it touches"

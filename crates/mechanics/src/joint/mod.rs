@@ -20,6 +20,7 @@ pub use contact_error::ContactError;
 pub use rolling::RollingLaw;
 pub use touching::{RollingPath, TouchingLaw};
 
+#[cfg(test)]
 use flexura_geometry::ImplicitSurface;
 use flexura_model::{Contact, JointKind, JointLaw, SurfaceMotion, Surfaces};
 use flexura_spatial::{Pose, Twist, Vector3};
@@ -135,9 +136,18 @@ impl Joint {
             (JointKind::Contact | JointKind::SurfaceRolling, Some(Contact::Surfaces(surfaces))) => {
                 Some(Touch::new(surfaces, unit, offset)?)
             }
+            (JointKind::Rolling(_) | JointKind::Contact | JointKind::SurfaceRolling, _) => {
+                return Err(ContactError::Missing);
+            }
             _ => None,
         };
         Ok(Self { kind: law.kind, axis: law.axis, second_axis: law.second_axis, contact })
+    }
+
+    /// No motion at all.
+    pub fn weld() -> Self {
+        let JointLaw { kind, axis, second_axis, .. } = JointLaw::weld();
+        Self { kind, axis, second_axis, contact: None }
     }
 
     /// Values of the coordinate between which a rolling joint is in contact; in the joint's units.
@@ -160,7 +170,8 @@ impl Joint {
     }
 
     /// The surfaces of child and parent that touch.
-    pub fn surfaces(&self) -> Option<[&ImplicitSurface; 2]> {
+    #[cfg(test)]
+    pub(crate) fn surfaces(&self) -> Option<[&ImplicitSurface; 2]> {
         match &self.contact {
             Some(Touch::Sliding(touching)) => Some(touching.law.surfaces()),
             Some(Touch::Path(path)) => Some(path.law.surfaces()),

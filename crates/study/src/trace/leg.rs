@@ -238,10 +238,17 @@ impl Follower<'_> {
 
     /// Why a leg ends that cannot go on: at the very end of the range there may be no regular point, for a load that goes to nothing can
     /// leave something free.
-    fn end_at(&self, traced: &Traced<'_>, leg: &Leg, stall: &Stall) -> BranchEnd {
+    fn end_at(&self, traced: &mut Traced<'_>, leg: &Leg, stall: &Stall) -> BranchEnd {
         let at = leg.points.last().map_or(0.5, |point| traced.axes[0].scaled(point.parameter));
         let arrived = leg.points.len() > 1 && at.abs().min((at - 1.0).abs()) <= ARRIVED;
-        if arrived { BranchEnd::Range } else { stalled(stall) }
+        if arrived {
+            return BranchEnd::Range;
+        }
+        let ends = traced.problem().contact_ends();
+        match stall {
+            Stall::Short if !ends.is_empty() => BranchEnd::Stalled(ends.join(", and ")),
+            _ => stalled(stall),
+        }
     }
 
     /// The mesh follows the forces.
