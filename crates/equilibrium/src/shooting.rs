@@ -8,7 +8,7 @@
 
 use crate::lower::Jump;
 use crate::mesh::Stretch;
-use flexura_mechanics::rod::{RodState, advance, advance_tendons};
+use flexura_mechanics::rod::{RodKernel, RodState, advance, advance_tendons};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, Wrench};
 
 /// Most tendons of unknown tension along one span: with the twelve numbers of a start they fill the widest kernel.
@@ -114,7 +114,9 @@ fn carry_stretch<const W: usize>(
     tensions: &[[f64; W]],
     state: &mut RodState<W>,
     lengths: &mut [[f64; W]],
-) {
+) where
+    RodState<W>: RodKernel<W>,
+{
     if stretch.channels.is_empty() {
         advance(&stretch.piece, load, state);
     } else {
@@ -148,7 +150,9 @@ fn carry_lanes<const W: usize>(
     first: &[usize],
     start: &Plain,
     end: &mut SegmentEnd,
-) {
+) where
+    RodState<W>: RodKernel<W>,
+{
     let mut lanes: RodState<W> = RodState {
         rotation: start.rotation,
         position: start.position,

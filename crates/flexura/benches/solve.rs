@@ -11,7 +11,7 @@
 use flexura::model::*;
 use flexura::spatial::{Pose, Vector3, exp};
 use flexura::{Prepared, model};
-use flexura_mechanics::rod::{LawTable, Piece, RodState, Slender, advance};
+use flexura_mechanics::rod::{LawTable, Piece, RodKernel, RodState, Slender, advance};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use std::time::Instant;
 
@@ -127,7 +127,10 @@ fn random_loads() -> Vec<(Vector3<f64>, Vector3<f64>)> {
     (0..1000).map(|_| (vector(10.0), vector(1.0))).collect()
 }
 
-fn kernel<const W: usize>(times: usize) {
+fn kernel<const W: usize>(times: usize)
+where
+    RodState<W>: RodKernel<W>,
+{
     let law = Slender { k0: [0.0; 3], stretch: 0.0, bend: [1.3, 1.0, 1.0] };
     let piece = Piece {
         length: 1.0,

@@ -2,6 +2,7 @@
 //! carried from one end of a piece to the other; tendons in a rod's channels, and tubes in tubes.
 
 pub mod balance;
+mod compiled;
 pub mod constitutive;
 pub mod foundation;
 pub mod propagate;
@@ -9,8 +10,9 @@ mod straighten;
 pub mod tendon;
 pub mod tubes;
 
+pub use compiled::{RodKernel, TubeKernel, advance, advance_tendons, advance_tubes};
 pub use constitutive::{Coupled, Law, Shearable, Slender};
 pub use foundation::{Foundation, FoundationSample, Resistance};
-pub use propagate::{LawTable, LoadSample, Piece, RodState, advance};
-pub use tendon::{Channel, ChannelSample, Tension, advance_tendons, rod_share};
-pub use tubes::{Guided, TUBES, Tube, TubePiece, TubeState, advance_tubes};
+pub use propagate::{LawTable, LoadSample, Piece, RodState};
+pub use tendon::{Channel, ChannelSample, Tension, rod_share};
+pub use tubes::{Guided, TUBES, Tube, TubePiece, TubeState};

@@ -110,8 +110,8 @@ impl<const W: usize> RodState<W> {
     }
 }
 
-/// Takes `state` from the start of `piece` to its end under `load` times its distributed loads.
-pub fn advance<const W: usize>(piece: &Piece, load: f64, state: &mut RodState<W>) {
+/// [`super::advance`] of any width.
+pub(super) fn advance<const W: usize>(piece: &Piece, load: f64, state: &mut RodState<W>) {
     #[cfg(all(target_arch = "x86_64", not(feature = "baseline")))]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the processor has AVX2, as was just asked.

@@ -54,15 +54,8 @@ pub struct Channel {
     pub samples: Vec<ChannelSample>,
 }
 
-/// Takes `state` from the start of `piece` to its end, with tendons in `channels`, under `load` times the
-/// distributed loads and the full `tensions`, and adds to `lengths` what each tendon measures in the piece.
-///
-/// `state` holds the wrench of rod and tendons together. At the end of a channel the tendon's straight
-/// part, or its anchor, pulls on rod and tendon as on any point of the section: the wrench jumps by
-/// the tension along that straight part; at an anchor nothing jumps.
-///
-/// Where no strain is found (a tendon shrunk to nothing) the state becomes NaN.
-pub fn advance_tendons<const W: usize>(
+/// [`super::advance_tendons`] of any width.
+pub(super) fn advance_tendons<const W: usize>(
     piece: &Piece,
     channels: &[Channel],
     tensions: &[Tension<W>],

@@ -176,12 +176,8 @@ impl<const W: usize> TubeState<W> {
     }
 }
 
-/// Takes `state` from the start of `piece` to its end under `load` times its distributed loads. The angle
-/// and torque of a tube that is not there do not change.
-///
-/// At the end of a tube only its own torque must have come to zero: its last moment in bending passes to the other
-/// tubes. Wrenches at points, at such ends too, are added to `state.rod` by the caller.
-pub fn advance_tubes<const W: usize>(piece: &TubePiece, load: f64, state: &mut TubeState<W>) {
+/// [`super::advance_tubes`] of any width.
+pub(super) fn advance_tubes<const W: usize>(piece: &TubePiece, load: f64, state: &mut TubeState<W>) {
     #[cfg(all(target_arch = "x86_64", not(feature = "baseline")))]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the processor has AVX2, as was just asked.

@@ -1,7 +1,7 @@
 use super::*;
 use crate::ode::NODES;
 use crate::rod::propagate::tests::{difference, laws, moved, piece, start};
-use crate::rod::{Channel, ChannelSample, Piece, RodState, advance, advance_tendons};
+use crate::rod::{Channel, ChannelSample, Piece, RodKernel, RodState, advance, advance_tendons};
 
 /// A foundation with all it can have: a full K, a hardening and a softening law along directions that turn.
 fn foundation(length: f64, steps: usize) -> Foundation {
@@ -23,7 +23,10 @@ fn on_foundation(piece: Piece) -> Piece {
 }
 
 /// Carries along a piece, with a tendon if asked.
-fn carry<const W: usize>(piece: &Piece, tendon: bool, state: &mut RodState<W>) {
+fn carry<const W: usize>(piece: &Piece, tendon: bool, state: &mut RodState<W>)
+where
+    RodState<W>: RodKernel<W>,
+{
     if tendon {
         let channel =
             Channel { tendon: 0, samples: vec![ChannelSample { offset: [0.05, -0.04], slope: [0.0; 2] }] };
