@@ -146,7 +146,8 @@ impl Equilibrium {
         self.rest();
         self.set_load(0.0);
         match self.linearise() {
-            Ok(()) => Ok(()),
+            // Whoever asked for the end is heard by the study.
+            Ok(()) | Err(Breakdown::Interrupted) => Ok(()),
             Err(Breakdown::Singular) if self.find_slack() => Ok(()),
             Err(Breakdown::Singular) => Err(self.explain_singular()),
             Err(Breakdown::NotFinite) => Err(ProblemError::new(

@@ -58,5 +58,6 @@ pub use tangents::CENTRAL;
 pub use accuracy::{Finish, Mesh};
 pub use diagnose::Census;
 pub use error::ProblemError;
+pub use flexura_nonlinear::Interrupt;
 pub use stability::{Rate, Stability, Variation};
 pub use system::{Counts, Equilibrium};

@@ -8,7 +8,7 @@ use crate::mesh::{Level, SpanMesh};
 use crate::shooting::{Plain, SegmentEnd};
 use flexura_mechanics::joint::Configuration;
 use flexura_model::{BeamPoint, JointKind, LoadId, LoadTarget, Model};
-use flexura_nonlinear::{BLOCK, Breakdown, Chain, Lift, Matrix, System};
+use flexura_nonlinear::{BLOCK, Breakdown, Chain, Interrupt, Lift, Matrix, System};
 use flexura_spatial::{Pose, Quaternion, UnitQuaternion, Vector3, exp, log};
 
 /// A model made ready to be solved, again and again, from rest or from where it stands.
@@ -63,6 +63,7 @@ pub struct Equilibrium {
     pub(crate) forced_segments: Option<usize>,
     pub(crate) finest_path: f64,
     pub(crate) counts: Counts,
+    interrupt: Interrupt,
 }
 
 /// Work done since the state was last put at rest; counts, so that they repeat exactly.
@@ -128,10 +129,16 @@ impl Equilibrium {
             forced_segments: None,
             finest_path: f64::INFINITY,
             counts: Counts::default(),
+            interrupt: Interrupt::default(),
             lowered,
         };
         this.rest();
         Ok(this)
+    }
+
+    /// Ends every study of it as soon as this flag is raised.
+    pub fn heed(&mut self, interrupt: &Interrupt) {
+        self.interrupt = interrupt.clone();
     }
 
     /// The model that it was made from.
@@ -391,6 +398,9 @@ impl System for Equilibrium {
     }
 
     fn linearise(&mut self) -> Result<(), Breakdown> {
+        if self.is_interrupted() {
+            return Err(Breakdown::Interrupted);
+        }
         self.counts.factorisations += 1;
         self.factorised = false;
         self.evaluate(true)?;
@@ -409,6 +419,10 @@ impl System for Equilibrium {
         self.tangent.factorise()?;
         self.factorised = true;
         Ok(())
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.interrupt.is_raised()
     }
 
     fn has_tangent(&self) -> bool {

@@ -1,15 +1,17 @@
 //! What a study has to say, and how it gets to the screen and onto the disk.
 
 use crate::arguments::ModelArguments;
-use crate::commands::{file_failure, warn_about};
+use crate::commands::{file_failure, warn_about, warn_of_outputs};
 use crate::failure::Failure;
+use crate::files::{self, Growing};
+use crate::interrupt;
 use crate::screen;
 use flexura::Options;
-use flexura::model::Model;
+use flexura::model::{Model, visible};
 use flexura::modelfile::Document;
+use flexura::post::PostError;
 use flexura::output::{self, BucklingDocument, InverseDynamicsDocument, TraceDocument, to_json};
 use serde::Serialize;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A model file that was read, and what is wanted of its studies.
@@ -33,7 +35,7 @@ impl<'a> Task<'a> {
     ) -> Result<Self, Failure> {
         let overrides = &arguments.overrides;
         let model = file.model(overrides).map_err(|report| file_failure(&report))?;
-        let mut options = Options::default();
+        let mut options = Options { interrupt: interrupt::listen(), ..Options::default() };
         if let Some(tolerance) = tolerance {
             options.tolerance = tolerance;
         }
@@ -48,41 +50,43 @@ impl<'a> Task<'a> {
     }
 
     /// Writes the files, prints document or summary, tells the warnings, and ends as the study did.
-    pub fn deliver(&self, answer: Answer) -> Result<(), Failure> {
-        self.write(&answer, self.folder.as_deref())?;
+    pub fn deliver(&self, mut answer: Answer) -> Result<(), Failure> {
+        let is_interrupted = self.options.interrupt.is_raised();
+        let written = self.write(&mut answer, self.folder.as_deref())?;
         if let Some(document) = answer.document.as_ref().filter(|_| self.is_json) {
-            screen::print(&json(document)?)?;
+            screen::print_table(&written.map_or_else(|| json(document), Ok)?)?;
         } else if !self.is_quiet {
             screen::print(&answer.summary)?;
         }
         if !self.is_quiet {
             warn_about(&self.file, &answer.warnings);
+            warn_of_outputs(&self.file, &answer.without_value);
             self.tell_files(&answer, self.folder.as_deref());
         }
-        answer.failure.map_or(Ok(()), Err)
+        match answer.failure {
+            // It may have been ended in what comes after the equilibrium.
+            None if is_interrupted => Err(Failure::Interrupted("interrupted; what was found is kept".to_owned())),
+            failure => failure.map_or(Ok(()), Err),
+        }
     }
 
-    /// Writes the files of an answer.
-    pub fn write(&self, answer: &Answer, folder: Option<&Path>) -> Result<(), Failure> {
-        let (Some(folder), Some(document)) = (folder, &answer.document) else { return Ok(()) };
-        let result = ("result.json", json(document)?);
-        fs::create_dir_all(folder).map_err(|error| {
-            Failure::Machine(format!("cannot make the folder {}: {error}", folder.display()))
-        })?;
-        for (name, text) in std::iter::once(&result).chain(&answer.files) {
-            let path = folder.join(name);
-            fs::write(&path, text)
-                .map_err(|error| Failure::Machine(format!("cannot write {}: {error}", path.display())))?;
-        }
-        Ok(())
+    /// Writes the files of an answer; the text of the document, if there is a folder.
+    pub fn write(&self, answer: &mut Answer, folder: Option<&Path>) -> Result<Option<String>, Failure> {
+        let (Some(folder), Some(document)) = (folder, &answer.document) else { return Ok(None) };
+        let names = answer.files.iter().map(|(name, _)| *name).collect();
+        let text = json(&Written { document, files: names })?;
+        files::replace_all(folder, &text, &answer.files)?;
+        answer.growing.take().into_iter().for_each(Growing::finish);
+        Ok(Some(text))
     }
 
     /// Says which files were written.
     pub fn tell_files(&self, answer: &Answer, folder: Option<&Path>) {
         let (Some(folder), Some((last, names))) = (folder, answer.files.split_last()) else { return };
         let names: Vec<&str> =
-            std::iter::once("result.json").chain(names.iter().map(|(name, _)| *name)).collect();
-        screen::note(&format!("wrote {} and {} into {}", names.join(", "), last.0, folder.display()));
+            std::iter::once(files::RESULT).chain(names.iter().map(|(name, _)| *name)).collect();
+        let folder = folder.to_string_lossy();
+        screen::note(&format!("wrote {} and {} into {}", names.join(", "), last.0, visible(&folder)));
     }
 }
 
@@ -94,9 +98,13 @@ pub struct Answer {
     pub files: Vec<(&'static str, String)>,
     /// What a person reads.
     pub summary: String,
+    /// Outputs that have no value.
+    pub without_value: Vec<PostError>,
     pub warnings: Vec<String>,
     /// Why it did not do what was asked.
     pub failure: Option<Failure>,
+    /// The rows that were written on the way.
+    pub growing: Option<Growing>,
 }
 
 /// The result document of any study.
@@ -109,6 +117,14 @@ pub enum StudyDocument {
     InverseDynamics(Box<InverseDynamicsDocument>),
 }
 
+/// A document on the disk knows which files stand beside it.
+#[derive(Serialize)]
+struct Written<'a> {
+    #[serde(flatten)]
+    document: &'a StudyDocument,
+    files: Vec<&'static str>,
+}
+
 /// The text of a document.
 pub fn json(document: &impl Serialize) -> Result<String, Failure> {
     to_json(document).map_err(|error| Failure::Machine(error.to_string()))
@@ -117,7 +133,7 @@ pub fn json(document: &impl Serialize) -> Result<String, Failure> {
 /// A result that holds a number which is none can only be one that did not converge, or a bug.
 pub fn unwritable(failure: Option<Failure>, message: &str) -> Failure {
     match failure {
-        Some(failure @ Failure::NotConverged(_)) => failure,
+        Some(failure @ (Failure::NotConverged(_) | Failure::Interrupted(_))) => failure,
         _ => Failure::Machine(format!("{message}; this is a bug in flexura, please report it")),
     }
 }

@@ -1,14 +1,14 @@
 //! What a person reads after buckling.
 
 use crate::quantity::{number, quantity, size};
-use crate::screen::{BAD, DIM, GOOD, styled};
+use crate::screen::{BAD, DIM, GOOD, styled, title};
 use crate::table::Table;
 use flexura::model::{BuckleStudy, Model};
 use flexura::solution::{Buckling, Status};
 
 /// The summary as text.
 pub fn render(model: &Model, study: &BuckleStudy, buckling: &Buckling) -> String {
-    let name = if model.name.is_empty() { "mechanism" } else { &model.name };
+    let name = title(&model.name);
     let state = match buckling.solution.status {
         Status::Converged => styled(GOOD, "converged"),
         status => styled(BAD, &status.word().replace('_', " ")),

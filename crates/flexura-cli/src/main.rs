@@ -1,7 +1,7 @@
 //! The `flexura` command: one file for each sub-command, and the only place in flexura that prints.
 //!
 //! Standard output carries results, standard error everything else. Exit codes: 0 converged, 1 the solver
-//! did not converge, 2 the input is wrong, 3 the machine failed.
+//! did not converge, 2 the input is wrong, 3 the machine failed, 130 somebody ended it.
 
 mod answer;
 mod arguments;
@@ -9,6 +9,8 @@ mod buckling_summary;
 mod commands;
 mod derivatives;
 mod failure;
+mod files;
+mod interrupt;
 mod motion_summary;
 mod progress;
 mod quantity;
@@ -29,7 +31,11 @@ fn main() -> ExitCode {
             "this is a bug in flexura; please report it with the model file and the lines above",
         );
     }));
-    let result = match Arguments::parse().command {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(help) => return screen::help(&help),
+    };
+    let result = match arguments.command {
         Command::Solve(arguments) => commands::solve::run(&arguments),
         Command::Trace(arguments) => commands::trace::run(&arguments),
         Command::Buckle(arguments) => commands::buckle::run(&arguments),

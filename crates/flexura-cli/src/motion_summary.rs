@@ -1,7 +1,7 @@
 //! What a person reads after a motion in time.
 
 use crate::quantity::{quantity, size};
-use crate::screen::{BAD, DIM, GOOD, styled};
+use crate::screen::{BAD, DIM, GOOD, styled, title};
 use crate::table::Table;
 use flexura::model::{CoordinateKind, Drive, Model};
 use flexura::solution::{InverseDynamics, Status};
@@ -13,7 +13,7 @@ const DIGITS: usize = 5;
 
 /// The summary as text.
 pub fn render(model: &Model, motion: &InverseDynamics) -> String {
-    let name = if model.name.is_empty() { "mechanism" } else { &model.name };
+    let name = title(&model.name);
     let state = match motion.status {
         Status::Converged => styled(GOOD, "converged"),
         status => styled(BAD, &status.word().replace('_', " ")),

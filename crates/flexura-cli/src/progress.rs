@@ -1,7 +1,7 @@
 //! Bars on standard error while load stepping or a sweep takes its time.
 
 use crate::quantity::quantity;
-use flexura::model::Parameter;
+use flexura::model::{Parameter, visible};
 use flexura::{MotionProgress, Progress, TraceProgress};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
@@ -58,13 +58,13 @@ impl<'a> TraceMeter<'a> {
         Self { meter: Meter::new(is_quiet), parameter }
     }
 
-    pub fn update(&mut self, progress: TraceProgress) {
+    pub fn update(&mut self, progress: &TraceProgress<'_>) {
         if !self.meter.is_wanted || self.meter.started.elapsed() < PATIENCE {
             return;
         }
         let bar = self.meter.bar.get_or_insert_with(new_spinner);
         let value = quantity(progress.parameter, &self.parameter.unit, 4);
-        let (name, points) = (&self.parameter.name, progress.points);
+        let (name, points) = (visible(&self.parameter.name), progress.points);
         bar.set_message(format!("branch {}, {points} points, {name} = {value}", progress.branch + 1));
         bar.tick();
     }

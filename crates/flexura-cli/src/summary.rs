@@ -1,7 +1,7 @@
 //! What a person reads after a solve.
 
 use crate::quantity::{number, quantity, rotation, size, strain, vector};
-use crate::screen::{BAD, BOLD, DIM, GOOD, styled};
+use crate::screen::{BAD, BOLD, DIM, GOOD, styled, title};
 use crate::table::Table;
 use flexura::post::{
     BeamPeaks, BeamSummary, CoordinateSummary, OutputResult, OutputValue, Peak, Scales, Summary,
@@ -59,7 +59,7 @@ pub fn standstill(status: Status, load_fraction: f64) -> String {
 }
 
 fn headline(summary: &Summary) -> String {
-    let name = if summary.model.is_empty() { "mechanism" } else { &summary.model };
+    let name = title(&summary.model);
     let state = match summary.status {
         Status::Converged => styled(GOOD, "converged"),
         status => styled(BAD, &standstill(status, summary.load_fraction)),

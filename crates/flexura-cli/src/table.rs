@@ -1,6 +1,10 @@
 //! Tables whose columns line up.
 
-use crate::screen::{BOLD, styled};
+use crate::screen::{BOLD, shortened, styled};
+use flexura::model::visible;
+
+/// Characters of the longest name: one that is longer would push its row off the screen.
+const LONGEST: usize = 60;
 
 /// A table with a heading over each column; the first column names the rows.
 pub struct Table {
@@ -9,11 +13,14 @@ pub struct Table {
 
 impl Table {
     pub fn new(headings: &[&str]) -> Self {
-        Self { rows: vec![headings.iter().map(|heading| (*heading).to_owned()).collect()] }
+        Self { rows: vec![headings.iter().map(|heading| shortened(&visible(heading), LONGEST)).collect()] }
     }
 
-    pub fn row(&mut self, cells: Vec<String>) {
-        self.rows.push(cells);
+    pub fn row(&mut self, mut cells: Vec<String>) {
+        if let Some(name) = cells.first_mut() {
+            *name = shortened(name, LONGEST);
+        }
+        self.rows.push(cells.iter().map(|cell| visible(cell).into_owned()).collect());
     }
 
     pub fn is_empty(&self) -> bool {

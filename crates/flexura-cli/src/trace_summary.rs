@@ -1,7 +1,7 @@
 //! What a person reads after a trace. Branches are counted from 1.
 
 use crate::quantity::{quantity, vector};
-use crate::screen::{BAD, BOLD, DIM, GOOD, styled};
+use crate::screen::{BAD, BOLD, DIM, GOOD, styled, title};
 use crate::table::Table;
 use flexura::model::{Model, Output, TraceStudy};
 use flexura::post::Scales;
@@ -76,7 +76,7 @@ struct Names<'a> {
 
 impl Names<'_> {
     fn headline(&self) -> String {
-        let name = if self.model.name.is_empty() { "mechanism" } else { &self.model.name };
+        let name = title(&self.model.name);
         let state = match self.trace.status {
             Status::Converged => styled(GOOD, "converged"),
             status => styled(BAD, &status.word().replace('_', " ")),
@@ -303,6 +303,7 @@ fn end_words(end: &BranchEnd) -> &'static str {
         BranchEnd::Start => "start",
         BranchEnd::PointLimit => "most points",
         BranchEnd::Stalled(_) => "stalled",
+        BranchEnd::Interrupted => "interrupted",
     }
 }
 
@@ -321,6 +322,7 @@ mod tests {
             arc: force,
             kind,
             outputs: vec![Some(vec![0.1 * force]), None],
+            output_reasons: vec![(1, "output `b` is inf".into())],
             error_estimate: 1e-10,
             stable: unstable.map(|count| count == 0),
             unstable_directions: unstable,

@@ -3,7 +3,7 @@
 use crate::model::Model;
 use crate::modelfile::{Document, Report};
 use crate::output::{self, OutputError};
-use crate::post::{self, Evaluation, OutputValue, PostError, Summary};
+use crate::post::{self, Evaluation, OutputValue, Summary};
 use crate::solution::Solution;
 use crate::{Options, ProblemError};
 use std::path::Path;
@@ -15,10 +15,8 @@ pub struct Solved {
     pub model: Model,
     /// What the solver returned.
     pub solution: Solution,
-    /// Stresses and outputs.
+    /// Stresses and outputs, and why an output has no value; the solution's warnings tell of that too.
     pub evaluation: Evaluation,
-    /// Outputs that have no value, and why; the solution's warnings tell of them too.
-    pub without_value: Vec<PostError>,
 }
 
 impl Solved {
@@ -85,7 +83,7 @@ pub fn solve_file(
     let mut family = crate::FileFamily::new(&file, overrides, &model);
     let (mut solution, model) =
         crate::solve_family(&model, &mut family, options, &mut |_| {}).map_err(Error::Model)?;
-    let (evaluation, without_value) = post::evaluate_each(&model, &solution);
-    solution.warnings.extend(without_value.iter().map(ToString::to_string));
-    Ok(Solved { model, solution, evaluation, without_value })
+    let evaluation = post::evaluate_each(&model, &solution);
+    solution.warnings.extend(evaluation.without_value.iter().map(ToString::to_string));
+    Ok(Solved { model, solution, evaluation })
 }

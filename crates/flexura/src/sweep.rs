@@ -9,7 +9,8 @@ use crate::modelfile::{Document, suggestion};
 use crate::post::{OutputResult, each_output};
 use crate::solution::Status;
 use crate::{FileFamily, Options, solve_family};
-use rayon::prelude::*;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A sweep of more samples than this is taken for a mistake.
 const MOST_SAMPLES: usize = 10_000_000;
@@ -156,10 +157,19 @@ pub struct Sample {
     pub energy: Option<f64>,
     /// Estimated largest relative error.
     pub error_estimate: Option<f64>,
+    /// Outputs without a value, by their positions, and why.
+    pub output_reasons: Vec<(usize, String)>,
     /// Why it did not converge, or why an output has no value.
     pub reason: Option<String>,
     /// What to know though it went well.
     pub warnings: Vec<String>,
+}
+
+impl Sample {
+    /// Is it what it would be if nobody asked for the end?
+    fn is_whole(&self) -> bool {
+        self.status != SampleStatus::Solved(Status::Interrupted) && self.output_reasons.is_empty()
+    }
 }
 
 /// The full grid over some parameters of a file.
@@ -211,25 +221,41 @@ impl<'a> Sweep<'a> {
         self.axes.iter().map(|axis| axis.values.len()).product()
     }
 
-    /// Solves all samples on `jobs` threads (None: as many as the machine has); `done` is called behind each.
+    /// Solves all samples on `jobs` threads (None: as many as the machine has); `done` is called with each and its position in
+    /// the grid, as they come. Where the options' flag is raised, those that are not solved by then are left as they are:
+    /// [`Status::Interrupted`].
     ///
     /// # Errors
     /// The machine gives no threads.
-    pub fn run(&self, jobs: Option<usize>, done: &(dyn Fn() + Sync)) -> Result<Vec<Sample>, String> {
+    pub fn run(
+        &self,
+        jobs: Option<usize>,
+        done: &(dyn Fn(usize, &Sample) + Sync),
+    ) -> Result<Vec<Sample>, String> {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(jobs.unwrap_or(0))
             .build()
             .map_err(|error| format!("cannot start threads: {error}"))?;
-        Ok(pool.install(|| {
-            let samples = (0..self.count()).into_par_iter().with_max_len(1);
-            samples
-                .map(|position| {
-                    let sample = self.sample(position);
-                    done();
-                    sample
-                })
-                .collect()
-        }))
+        // In the order of the grid, so that one that is ended has solved its beginning.
+        let next = AtomicUsize::new(0);
+        let samples: Vec<OnceLock<Sample>> = (0..self.count()).map(|_| OnceLock::new()).collect();
+        pool.broadcast(|_| {
+            loop {
+                let position = next.fetch_add(1, Ordering::Relaxed);
+                let Some(place) = samples.get(position).filter(|_| !self.options.interrupt.is_raised()) else {
+                    break;
+                };
+                let sample = self.sample(position);
+                if self.options.interrupt.is_raised() && !sample.is_whole() {
+                    break;
+                }
+                done(position, place.get_or_init(|| sample));
+            }
+        });
+        let samples = samples.into_iter().enumerate();
+        Ok(samples
+            .map(|(position, sample)| sample.into_inner().unwrap_or_else(|| self.unsolved(position)))
+            .collect())
     }
 
     /// The values of one sample.
@@ -244,17 +270,23 @@ impl<'a> Sweep<'a> {
         values
     }
 
-    fn sample(&self, position: usize) -> Sample {
-        let mut sample = Sample {
+    /// A sample that nobody has looked at.
+    fn unsolved(&self, position: usize) -> Sample {
+        Sample {
             values: self.values(position),
-            status: SampleStatus::InputError,
+            status: SampleStatus::Solved(Status::Interrupted),
             found: Vec::new(),
             outputs: Vec::new(),
+            output_reasons: Vec::new(),
             energy: None,
             error_estimate: None,
             reason: None,
             warnings: Vec::new(),
-        };
+        }
+    }
+
+    fn sample(&self, position: usize) -> Sample {
+        let mut sample = Sample { status: SampleStatus::InputError, ..self.unsolved(position) };
         let mut overrides = self.overrides.clone();
         for (axis, value) in self.axes.iter().zip(&sample.values) {
             overrides.push((axis.parameter.clone(), format!("{value:e} {}", axis.unit)));
@@ -286,8 +318,9 @@ impl<'a> Sweep<'a> {
             match output {
                 Ok(output) => sample.outputs.push(Some(output)),
                 Err(error) => {
-                    sample.outputs.push(None);
+                    sample.output_reasons.push((sample.outputs.len(), error.to_string()));
                     sample.reason.get_or_insert(error.to_string());
+                    sample.outputs.push(None);
                 }
             }
         }

@@ -3,7 +3,7 @@
 use crate::model::{BuckleStudy, Model, Study, StudyKind, TraceStudy};
 use crate::modelfile::{Document, suggestion};
 use crate::output::{self, OutputError, TraceView};
-use crate::post::{self, Evaluation, PostError};
+use crate::post::{self, Evaluation};
 use crate::solution::{Buckling, Trace};
 use crate::{Error, Family, FileFamily, Options, ProblemError};
 use std::path::Path;
@@ -46,10 +46,8 @@ pub struct Buckled {
     pub study: BuckleStudy,
     /// What came out.
     pub buckling: Buckling,
-    /// Stresses and outputs of the equilibrium.
+    /// Stresses and outputs of the equilibrium, and why an output has no value.
     pub evaluation: Evaluation,
-    /// Outputs that have no value, and why.
-    pub without_value: Vec<PostError>,
 }
 
 impl Buckled {
@@ -68,8 +66,8 @@ impl Buckled {
             Some(parameter) => family.model(&[(parameter, study.at)])?,
             None => model.clone(),
         };
-        let (evaluation, without_value) = post::evaluate_each(&model, &buckling.solution);
-        Ok(Self { model, study: *study, buckling, evaluation, without_value })
+        let evaluation = post::evaluate_each(&model, &buckling.solution);
+        Ok(Self { model, study: *study, buckling, evaluation })
     }
 
     /// The result document.

@@ -78,7 +78,8 @@ fn sensitivities_are_the_derivatives_of_whole_solves() {
     assert_eq!(solution.status, Status::Converged, "{:?}", solution.reason);
     let base = values(&model, &solution);
     let found = solution.sensitivities.unwrap();
-    let flat: Vec<&Vec<f64>> = found.outputs.iter().flatten().collect();
+    let whole = |by: &Vec<Option<f64>>| by.iter().copied().collect::<Option<Vec<f64>>>().unwrap();
+    let flat: Vec<Vec<f64>> = found.outputs.iter().flatten().map(whole).collect();
     for (p, parameter) in model.parameters.iter().enumerate() {
         let h = 2e-3 * parameter.value;
         let at = |factor: f64| {

@@ -408,7 +408,8 @@ fn a_velocity_has_no_value_where_nothing_moves() {
     let file = flexura::modelfile::Document::parse(FOUR_BAR, "model.toml").unwrap();
     let model = file.model(&[]).unwrap();
     let solution = flexura::solve(&model, &flexura::Options::default(), &mut |_| {}).unwrap();
-    let (evaluation, without) = flexura::post::evaluate_each(&model, &solution);
+    let evaluation = flexura::post::evaluate_each(&model, &solution);
+    let without = &evaluation.without_value;
     assert!(evaluation.outputs.iter().all(|output| output.name == "torque"));
     assert_eq!(without.len(), 3);
     assert!(

@@ -20,6 +20,7 @@ mod output;
 mod profile;
 mod spring;
 mod study;
+mod text;
 mod tubes;
 mod validate;
 
@@ -43,6 +44,7 @@ pub use output::{Output, Probe, ProbeTarget, Quantity};
 pub use profile::{At, Profile};
 pub use spring::{ExponentialForm, Obstacle, Spring, SpringLaw, Turn, Wrap};
 pub use study::{BuckleStudy, CriticalStudy, Stop, Study, StudyKind, TraceStudy};
+pub use text::{is_unseen, visible, visible_lines};
 pub use tubes::{Tube, Tubes};
 pub use validate::{Issue, name_problem};
 

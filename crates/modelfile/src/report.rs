@@ -2,6 +2,7 @@
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use flexura_model::{visible, visible_lines};
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -158,33 +159,38 @@ impl Problem {
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
         };
-        let mut group = Group::with_title(level.primary_title(self.message.as_str()));
+        let (message, path, file) = (visible_lines(&self.message), visible(&self.path), visible(&self.file));
+        let mut group = Group::with_title(level.primary_title(&*message));
         let line = self.source.as_ref().map(|source| self.line_of(source));
         match (&self.source, line) {
             (Some(source), Some(line)) if line.len() <= LONGEST_LINE => {
+                let text = &source.text[line.clone()];
                 let from = self.span.start - line.start;
                 // A span over several lines is shown by its first line.
                 let to = (self.span.end - line.start).clamp(from, line.len());
+                let to = visible_lines(&text[..to]).len();
+                let from = visible_lines(&text[..from]).len();
                 let mut annotation = AnnotationKind::Primary.span(from..to);
                 if !self.path.is_empty() {
-                    annotation = annotation.label(self.path.as_str());
+                    annotation = annotation.label(&*path);
                 }
-                let snippet = Snippet::source(&source.text[line])
+                let snippet = Snippet::source(visible_lines(text))
                     .line_start(self.line)
-                    .path(self.file.as_str())
+                    .path(&*file)
                     .annotation(annotation);
                 group = group.element(snippet);
             }
             _ => {
-                let mut origin = Origin::path(self.file.as_str());
+                let mut origin = Origin::path(&*file);
                 if self.line > 0 {
                     origin = origin.line(self.line).char_column(self.column);
                 }
                 group = group.element(origin);
             }
         }
-        if let Some(hint) = &self.hint {
-            group = group.element(Level::HELP.message(hint.as_str()));
+        let hint = self.hint.as_deref().map(visible_lines);
+        if let Some(hint) = &hint {
+            group = group.element(Level::HELP.message(&**hint));
         }
         let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
         renderer.decor_style(DecorStyle::Ascii).render(&[group])

@@ -72,6 +72,11 @@ pub enum PathEnd {
     },
     /// The tangent has no inverse at rest.
     SingularAtRest,
+    /// Before it: somebody asked for the end.
+    Interrupted {
+        /// Load fraction reached.
+        load: f64,
+    },
 }
 
 /// A first correction that is never too large: where the response is small for reasons of symmetry, curvature is
@@ -124,6 +129,7 @@ pub fn follow(
     let mut response = vec![0.0; n];
     let mut orientation = match rest_response(system, &mut step, &mut response) {
         Some(orientation) => orientation,
+        None if system.is_interrupted() => return (PathEnd::Interrupted { load: 0.0 }, work),
         None => return (PathEnd::SingularAtRest, work),
     };
     system.expect(&response);
@@ -134,6 +140,11 @@ pub fn follow(
         let last = points[points.len() - 1].load;
         if last >= 1.0 {
             return (PathEnd::Complete, work);
+        }
+        if system.is_interrupted() {
+            system.set_load(last);
+            system.restore(&points[points.len() - 1].state);
+            return (PathEnd::Interrupted { load: last }, work);
         }
         let mut load = (last + width).min(1.0);
         let furthest = system.phase(last) + options.largest_phase;

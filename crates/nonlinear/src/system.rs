@@ -7,6 +7,8 @@ pub enum Breakdown {
     NotFinite,
     /// The tangent has no inverse.
     Singular,
+    /// Somebody asked for the end.
+    Interrupted,
 }
 
 /// A square system r(x; λ) = 0 on a manifold, with a load fraction λ that leads from a known solution at
@@ -26,6 +28,11 @@ pub trait System {
 
     /// Evaluates r and J at the present state, and factorises J.
     fn linearise(&mut self) -> Result<(), Breakdown>;
+
+    /// Did somebody ask for the end? Then there are no more tangents: [`Breakdown::Interrupted`].
+    fn is_interrupted(&self) -> bool {
+        false
+    }
 
     /// Is there a factorised tangent of a state that may be near?
     fn has_tangent(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use crate::OutputError;
 use crate::document::section_quaternions;
-use flexura_model::Model;
+use flexura_model::{Model, visible};
 use flexura_post::Evaluation;
 use flexura_solution::Solution;
 use std::fmt::Write;
@@ -71,11 +71,43 @@ fn push(text: &mut String, value: f64, beam: &str, sample: usize) -> Result<(), 
     Ok(())
 }
 
-/// A cell, in quotes where it needs them.
-pub(crate) fn quoted(name: &str) -> String {
-    if name.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", name.replace('"', "\"\""))
+/// A row of a table: cells with commas between them, ending in a line break.
+pub fn csv_line(cells: &[String]) -> String {
+    cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n"
+}
+
+/// A cell, in quotes where it needs them. Spreadsheets take what begins with `=`, `+`, `-` or `@` for a formula: unless it is a
+/// number it gets an apostrophe, which they take for the sign of a text.
+pub(crate) fn quoted(cell: &str) -> String {
+    let cell = visible(cell);
+    let is_formula = cell.starts_with(['=', '+', '-', '@']) && cell.parse::<f64>().is_err();
+    let sign = if is_formula { "'" } else { "" };
+    if cell.contains([',', '"']) {
+        format!("\"{sign}{}\"", cell.replace('"', "\"\""))
     } else {
-        name.to_owned()
+        format!("{sign}{cell}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_is_no_formula_and_holds_nothing_unseen() {
+        let cases = [
+            ("-0.05", "-0.05"),
+            ("+1e-3", "+1e-3"),
+            ("-inf", "-inf"),
+            ("=1+1", "'=1+1"),
+            ("-2+3", "'-2+3"),
+            ("@sum(a, b)", "\"'@sum(a, b)\""),
+            ("a \"word\"", "\"a \"\"word\"\"\""),
+            ("\u{1b}[2J\n", "\\u001B[2J\\u000A"),
+        ];
+        for (cell, written) in cases {
+            assert_eq!(quoted(cell), written);
+        }
+        assert_eq!(csv_line(&["a,b".to_owned(), "1.0".to_owned()]), "\"a,b\",1.0\n");
     }
 }

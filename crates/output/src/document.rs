@@ -8,7 +8,7 @@ use crate::wire::{
 };
 use crate::{Named, OutputError};
 use flexura_model::{Beam, Model, Tubes};
-use flexura_post::{BeamStress, Evaluation, OutputValue};
+use flexura_post::{BeamStress, Evaluation, OutputValue, PostError};
 use flexura_solution::{
     BeamSample, BeamSolution, CableSolution, Solution, SpringSolution, Status, TubesSample, TubesSolution,
     Work,
@@ -41,7 +41,8 @@ pub fn document(
         work: work(&solution.work),
         parameters: parameters(model)?,
         unknowns: unknowns(model, solution)?,
-        outputs: outputs(evaluation)?,
+        outputs: outputs(model, evaluation)?,
+        output_reasons: output_reasons(evaluation),
         beams: state.beams,
         bodies: state.bodies,
         joints: state.joints,
@@ -112,7 +113,8 @@ pub fn equilibrium_document(
         residual: finite(solution.residual, || "residual".into())?,
         error_estimate: error_estimate(solution)?,
         stable: solution.stable,
-        outputs: outputs(evaluation)?,
+        outputs: outputs(model, evaluation)?,
+        output_reasons: output_reasons(evaluation),
         bodies: bodies(model, solution)?,
         joints: joints(model, solution)?,
     })
@@ -145,15 +147,38 @@ fn unknowns(model: &Model, solution: &Solution) -> Result<Option<Named<f64>>, Ou
     .map(Some)
 }
 
-pub(crate) fn outputs(evaluation: &Evaluation) -> Result<Named<Value>, OutputError> {
-    Named::collect(evaluation.outputs.iter(), |output| {
+pub(crate) fn outputs(model: &Model, evaluation: &Evaluation) -> Result<Named<Option<Value>>, OutputError> {
+    Named::collect(model.outputs.iter(), |output| {
         let path = || format!("outputs.{}", output.name);
-        let value = match output.value {
-            OutputValue::Number(number) => Value::Number(finite(number, path)?),
-            OutputValue::Vector(vector) => Value::Vector(all_finite(vector, path)?),
+        let known = evaluation.outputs.iter().find(|result| result.name == output.name);
+        let value = match known.map(|result| result.value) {
+            Some(OutputValue::Number(number)) => Some(Value::Number(finite(number, path)?)),
+            Some(OutputValue::Vector(vector)) => Some(Value::Vector(all_finite(vector, path)?)),
+            None => None,
         };
         Ok((output.name.clone(), value))
     })
+}
+
+pub(crate) fn output_reasons(evaluation: &Evaluation) -> Named<String> {
+    let reason = |error: &PostError| (error.output().to_owned(), error.to_string());
+    Named(evaluation.without_value.iter().map(reason).collect())
+}
+
+/// The same of a path's point or of a time, which know outputs by their positions.
+pub(crate) fn reasons_by_name<'a>(
+    model: &Model,
+    reasons: impl Iterator<Item = &'a (usize, String)>,
+) -> Named<String> {
+    let mut named: Vec<(String, String)> = Vec::new();
+    for (position, reason) in reasons {
+        if let Some(output) = model.outputs.get(*position)
+            && named.iter().all(|(name, _)| *name != output.name)
+        {
+            named.push((output.name.clone(), reason.clone()));
+        }
+    }
+    Named(named)
 }
 
 fn bodies(model: &Model, solution: &Solution) -> Result<Named<BodyDocument>, OutputError> {

@@ -1,6 +1,7 @@
 //! JSON text that a person can still read: objects indented, every list on one line.
 
 use crate::OutputError;
+use flexura_model::is_unseen;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::ser::Formatter;
@@ -74,7 +75,7 @@ pub fn to_json(document: &impl Serialize) -> Result<String, OutputError> {
     let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Layout::default());
     document.serialize(&mut serializer)?;
     bytes.push(b'\n');
-    // Only the names of the model are not ASCII, and they came in as strings.
+    // Only names and messages are not ASCII, and they came in as strings.
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
@@ -119,7 +120,35 @@ impl Formatter for Layout {
         writer.write_all(b"}")
     }
 
+    /// Whatever steers a terminal is escaped, which reads back as the same text.
+    fn write_string_fragment<W: ?Sized + io::Write>(&mut self, writer: &mut W, fragment: &str) -> io::Result<()> {
+        let mut rest = fragment;
+        while let Some((at, unseen)) = rest.char_indices().find(|(_, character)| is_unseen(*character)) {
+            writer.write_all(&rest.as_bytes()[..at])?;
+            for unit in unseen.encode_utf16(&mut [0; 2]) {
+                write!(writer, "\\u{unit:04x}")?;
+            }
+            rest = &rest[at + unseen.len_utf8()..];
+        }
+        writer.write_all(rest.as_bytes())
+    }
+
     fn begin_array_value<W: ?Sized + io::Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
         if first { Ok(()) } else { writer.write_all(b", ") }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_that_steers_a_terminal_is_escaped_and_reads_back() {
+        let title = "a\u{1b}]0;b\u{7}\u{9b}2J\u{202e}c\u{ffff}\u{e0041}\u{7f} ü";
+        let text = to_json(&Named(vec![("title".to_owned(), title)])).unwrap();
+        assert_eq!(text.lines().count(), 3);
+        assert!(text.chars().all(|character| character == '\n' || !is_unseen(character)), "{text:?}");
+        let back: serde_json::Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(back["title"], title);
     }
 }

@@ -19,7 +19,7 @@ mod vtk;
 mod wire;
 
 pub use contact::{ContactDocument, SideDocument};
-pub use csv::beams_csv;
+pub use csv::{beams_csv, csv_line};
 pub use document::{document, equilibrium_document};
 pub use json::{Named, to_json};
 pub use motion::{
@@ -31,7 +31,7 @@ pub use svg::{diagram_svg, modes_svg, motion_svg, shape_svg, shapes_svg};
 pub use trace::{
     BranchDocument, BucklingDocument, CriticalDocument, ModeDocument, MotionDocument, MotionsDocument,
     PointDocument, Remake, ShapeDocument, TraceDocument, TraceView, TraceWorkDocument, buckling_document,
-    critical_csv, modes_csv, path_csv, trace_document,
+    critical_csv, modes_csv, path_csv, path_header, path_row, trace_document,
 };
 pub use vtk::model_vtp;
 pub use wire::{

@@ -130,13 +130,14 @@ pub fn solution_of(document: &Document, model: &Model) -> Result<Solution, ReadE
     Ok(solution)
 }
 
-const STATUSES: [Status; 6] = [
+const STATUSES: [Status; 7] = [
     Status::Converged,
     Status::Stalled,
     Status::IterationLimit,
     Status::Singular,
     Status::Inconsistent,
     Status::AccuracyLimit,
+    Status::Interrupted,
 ];
 
 /// The document's entries in the order of the model's names, which must be the same ones.

@@ -4,7 +4,7 @@
 //! along its course. Numbers are written as inline base64 (a 32-bit byte count, then the little-endian values), which
 //! is exact and can hold NaN where a beam has no stress.
 
-use flexura_model::Model;
+use flexura_model::{Model, visible};
 use flexura_post::Evaluation;
 use flexura_solution::{BeamSample, Solution};
 use flexura_spatial::{Pose, Vector3, Wrench};
@@ -14,8 +14,8 @@ use flexura_spatial::{Pose, Vector3, Wrench};
 /// Point data: `s`, `displacement`, `force`, `moment`, `curvature`, `stretch`, `director_e1`,
 /// `director_e2`, `director_e3`, `strain`, `stress` (the last two NaN for a section given as a stiffness; on tubes these
 /// two, `displacement` and `stretch`, and all of them on cables). Cell data: `beam`, `tubes` and `cable`, the position in
-/// the model's list or -1, and `tension`, NaN but for a cable. Field data: `beam_names`, and `tubes_names` and
-/// `cable_names` where there are such.
+/// the model's list or -1, and `tension`, NaN but for a cable. Field data: `status`, how the solve ended, `beam_names`, and
+/// `tubes_names` and `cable_names` where there are such.
 pub fn model_vtp(model: &Model, solution: &Solution, evaluation: &Evaluation) -> String {
     let samples: Vec<&BeamSample> = solution.beams.iter().flat_map(|beam| &beam.samples).collect();
     let course: Vec<Vector3<f64>> = solution.cables.iter().flat_map(|cable| &cable.course).copied().collect();
@@ -69,6 +69,7 @@ pub fn model_vtp(model: &Model, solution: &Solution, evaluation: &Evaluation) ->
         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\">\n",
         "<PolyData>\n<FieldData>\n",
     ));
+    text += &names("status", std::iter::once(solution.status.word()));
     text += &names("beam_names", model.beams.iter().map(|beam| beam.name.as_str()));
     if !model.tubes.is_empty() {
         text += &names("tubes_names", model.tubes.iter().map(|tubes| tubes.name.as_str()));
@@ -135,7 +136,8 @@ fn integers(name: &str, values: impl Iterator<Item = i64>) -> String {
 /// Strings are stored one after another, each closed by a zero byte.
 fn names<'a>(title: &str, names: impl ExactSizeIterator<Item = &'a str>) -> String {
     let count = names.len();
-    let bytes: Vec<u8> = names.flat_map(|name| name.bytes().chain([0])).collect();
+    let bytes: Vec<u8> =
+        names.flat_map(|name| visible(name).bytes().chain([0]).collect::<Vec<_>>()).collect();
     array("String", title, &format!("NumberOfTuples=\"{count}\""), &bytes)
 }
 

@@ -38,9 +38,12 @@ pub struct Document {
     /// Of an inverse problem the parameters that were found, which stand in `parameters` too.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unknowns: Option<Named<f64>>,
-    /// The outputs.
+    /// The outputs; null where one has no value.
     #[serde(default)]
-    pub outputs: Named<Value>,
+    pub outputs: Named<Option<Value>>,
+    /// Why those outputs have none.
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub output_reasons: Named<String>,
     /// The beams' states at their samples.
     pub beams: Named<BeamDocument>,
     /// The bodies' poses.
@@ -281,8 +284,11 @@ pub struct EquilibriumDocument {
     pub error_estimate: Option<f64>,
     /// Null where it is not decided.
     pub stable: Option<bool>,
-    /// The outputs.
-    pub outputs: Named<Value>,
+    /// The outputs; null where one has no value.
+    pub outputs: Named<Option<Value>>,
+    /// Why those outputs have none.
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub output_reasons: Named<String>,
     /// The bodies' poses.
     pub bodies: Named<BodyDocument>,
     /// The joints' states.

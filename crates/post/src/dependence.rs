@@ -20,8 +20,8 @@ pub struct Dependence {
     pub elasticity: Vec<Option<f64>>,
 }
 
-/// Every output by every parameter, outputs first; empty where the solution holds no sensitivities. Outputs without a
-/// value have no dependence either.
+/// Every output by every parameter, outputs first; empty where the solution holds no sensitivities. An output without a
+/// value, here or next to this equilibrium, has no dependence either.
 pub fn dependences(model: &Model, solution: &Solution, evaluation: &Evaluation) -> Vec<Dependence> {
     let Some(sensitivities) = &solution.sensitivities else { return Vec::new() };
     let scales = Scales::of(solution);
@@ -36,7 +36,9 @@ pub fn dependences(model: &Model, solution: &Solution, evaluation: &Evaluation) 
         };
         for (column, &position) in sensitivities.parameters.iter().enumerate() {
             let parameter = &model.parameters[position];
-            let derivative: Vec<f64> = components.iter().map(|by| by[column]).collect();
+            // An output has all its components or none.
+            let derivative: Option<Vec<f64>> = components.iter().map(|by| by[column]).collect();
+            let Some(derivative) = derivative else { continue };
             let elasticity = derivative.iter().zip(&values).map(|(slope, value)| {
                 let is_nothing =
                     parameter.value == 0.0 || *value == 0.0 || scales.hides(*value, &output.unit);

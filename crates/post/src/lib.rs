@@ -31,6 +31,33 @@ pub struct Evaluation {
     pub beams: Vec<Option<BeamStress>>,
     /// One for each output that has a value.
     pub outputs: Vec<OutputResult>,
+    /// One for each output that has none, which says why.
+    pub without_value: Vec<PostError>,
+}
+
+/// The outputs of a path's point or of a time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Values {
+    /// For each output its components (one or three), SI; None where it has no value.
+    pub outputs: Vec<Option<Vec<f64>>>,
+    /// Outputs without a value, by their positions, and why.
+    pub reasons: Vec<(usize, String)>,
+}
+
+/// [`each_output`] as numbers alone.
+pub fn output_values(model: &Model, solution: &Solution) -> Values {
+    let mut values = Values::default();
+    for (position, result) in each_output(model, solution).into_iter().enumerate() {
+        values.outputs.push(match result.map(|result| result.value) {
+            Ok(OutputValue::Number(number)) => Some(vec![number]),
+            Ok(OutputValue::Vector(vector)) => Some(vector.to_vec()),
+            Err(error) => {
+                values.reasons.push((position, error.to_string()));
+                None
+            }
+        });
+    }
+    values
 }
 
 /// The outputs of a solution alone; stresses only where an output asks for them.
@@ -95,27 +122,30 @@ fn outputs_of<'a>(
 /// # Errors
 /// [`PostError`] where an output asks for something that is not there or comes out as no finite number.
 pub fn evaluate(model: &Model, solution: &Solution) -> Result<Evaluation, PostError> {
-    let (evaluation, mut errors) = evaluate_each(model, solution);
-    if errors.is_empty() { Ok(evaluation) } else { Err(errors.swap_remove(0)) }
+    let mut evaluation = evaluate_each(model, solution);
+    if evaluation.without_value.is_empty() {
+        Ok(evaluation)
+    } else {
+        Err(evaluation.without_value.swap_remove(0))
+    }
 }
 
-/// [`evaluate`], with those outputs left out that have no value; the second of the pair says which and why.
-pub fn evaluate_each(model: &Model, solution: &Solution) -> (Evaluation, Vec<PostError>) {
+/// [`evaluate`] of each output for itself: one without a value does not take the others along.
+pub fn evaluate_each(model: &Model, solution: &Solution) -> Evaluation {
     let beams: Vec<_> = model
         .beams
         .iter()
         .zip(&solution.beams)
         .map(|(beam, result)| beam_stress(model, beam, result))
         .collect();
-    let mut evaluation = Evaluation { beams, outputs: Vec::new() };
-    let mut errors = Vec::new();
+    let mut evaluation = Evaluation { beams, outputs: Vec::new(), without_value: Vec::new() };
     for output in &model.outputs {
         match outputs::evaluate(output, model, solution, &evaluation.beams) {
             Ok(result) => evaluation.outputs.push(result),
-            Err(error) => errors.push(error),
+            Err(error) => evaluation.without_value.push(error),
         }
     }
-    (evaluation, errors)
+    evaluation
 }
 
 /// An output that has no value.
@@ -185,4 +215,19 @@ pub enum PostError {
         /// What it looks at.
         target: &'static str,
     },
+}
+
+impl PostError {
+    /// Name of the output.
+    pub fn output(&self) -> &str {
+        match self {
+            PostError::NotFinite { output, .. }
+            | PostError::NoStress { output, .. }
+            | PostError::NoSample { output, .. }
+            | PostError::NoTurning { output, .. }
+            | PostError::NoCompliance { output, .. }
+            | PostError::NoMotion { output }
+            | PostError::NoSuchQuantity { output, .. } => output,
+        }
+    }
 }

@@ -33,6 +33,8 @@ pub enum Status {
     Inconsistent,
     /// The wanted accuracy lies below what double precision gives here.
     AccuracyLimit,
+    /// Somebody asked for the end before it was reached.
+    Interrupted,
 }
 
 impl Status {
@@ -45,6 +47,7 @@ impl Status {
             Status::Singular => "singular",
             Status::Inconsistent => "inconsistent",
             Status::AccuracyLimit => "accuracy_limit",
+            Status::Interrupted => "interrupted",
         }
     }
 }
@@ -236,12 +239,12 @@ pub struct Sensitivities {
     /// Positions in the model's parameters.
     pub parameters: Vec<usize>,
     /// For each output of the model, for each of its components, for each of these parameters: d output / d
-    /// parameter, SI.
-    pub outputs: Vec<Vec<Vec<f64>>>,
+    /// parameter, SI; None where the output has no value, here or next to it.
+    pub outputs: Vec<Vec<Vec<Option<f64>>>>,
     /// Of an inverse problem: for each unknown parameter, for each of these (given) parameters, d unknown / d given while
     /// the targets are kept.
     pub unknowns: Vec<Vec<f64>>,
-    /// Parameters that are left out because models next to this one make no sense, with the reason.
+    /// Parameters that are left out because mechanisms next to this one make no sense, with the reason.
     pub left_out: Vec<(usize, String)>,
     /// For each body, for each of these parameters: motion of its origin and turning per unit.
     pub bodies: Vec<Vec<Twist>>,

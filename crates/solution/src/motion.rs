@@ -48,6 +48,8 @@ pub struct Instant {
     pub acceleration: f64,
     /// For each output its components (one or three), SI; None where it has no value.
     pub outputs: Vec<Option<Vec<f64>>>,
+    /// Outputs without a value, by their positions, and why.
+    pub output_reasons: Vec<(usize, String)>,
     /// Poses, velocities, wrenches and efforts: the balance of the forces of inertia with all others.
     pub state: Solution,
     /// Power of all driven joint coordinates, Σ effort × velocity, W.

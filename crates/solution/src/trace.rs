@@ -87,6 +87,8 @@ pub enum BranchEnd {
     PointLimit,
     /// It cannot be followed further, and why.
     Stalled(String),
+    /// Somebody asked for the end.
+    Interrupted,
 }
 
 /// One equilibrium of a path.
@@ -100,6 +102,8 @@ pub struct TracePoint {
     pub kind: PointKind,
     /// For each output its components (one or three), SI; None where it has no value.
     pub outputs: Vec<Option<Vec<f64>>>,
+    /// Outputs without a value, by their positions, and why.
+    pub output_reasons: Vec<(usize, String)>,
     /// Estimated largest error of poses and wrenches, relative to L, 1, EI/L², EI/L.
     pub error_estimate: f64,
     /// Is it a stable equilibrium? None where that is not decided, as at a fold or branch point itself.

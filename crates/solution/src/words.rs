@@ -68,6 +68,7 @@ impl BranchEnd {
             BranchEnd::Start => "start",
             BranchEnd::PointLimit => "point_limit",
             BranchEnd::Stalled(_) => "stalled",
+            BranchEnd::Interrupted => "interrupted",
         }
     }
 

@@ -67,6 +67,9 @@ impl Prepared {
         progress: &mut dyn FnMut(Progress),
     ) -> Outcome {
         let forward = self.solve(tolerance, progress);
+        if forward.status == Status::Interrupted {
+            return forward;
+        }
         if forward.status != Status::Converged {
             let reason = forward.reason.unwrap_or_default();
             return Outcome {
@@ -112,7 +115,17 @@ impl Prepared {
         values
     }
 
-    fn lead(&mut self, family: &mut dyn Family, tolerance: f64, mut outcome: Outcome) -> Outcome {
+    fn lead(&mut self, family: &mut dyn Family, tolerance: f64, outcome: Outcome) -> Outcome {
+        let outcome = self.lead_on(family, tolerance, outcome);
+        if outcome.status == Status::Converged || !self.problem.is_interrupted() {
+            return outcome;
+        }
+        // Whatever the last steps made of that.
+        let reason = "interrupted on the way from the guess to the targets".to_string();
+        Outcome { status: Status::Interrupted, reason: Some(reason), error_estimate: f64::NAN, ..outcome }
+    }
+
+    fn lead_on(&mut self, family: &mut dyn Family, tolerance: f64, mut outcome: Outcome) -> Outcome {
         let stop = |status, reason: String, outcome: Outcome| Outcome {
             status,
             reason: Some(reason),

@@ -9,7 +9,7 @@ mod solve;
 mod trace;
 
 pub use family::Family;
-pub use flexura_equilibrium::{Census, Equilibrium, ProblemError};
+pub use flexura_equilibrium::{Census, Equilibrium, Interrupt, ProblemError};
 pub use motion::{MotionProgress, inverse_dynamics};
 pub use search::equilibria;
 pub use sensitivity::SensitivityError;

@@ -62,11 +62,15 @@ pub fn equilibria(
     let middle = |i| BeamPoint { beam: BeamId(i), at: At::Fraction(0.5) };
     let probes: Vec<BeamPoint> = (0..model.beams.len()).map(middle).collect();
     let mut prepared = Prepared::with_probes(model, &probes)?;
+    prepared.heed(&options.interrupt);
     let mut found: Vec<Solution> = Vec::new();
     let first = prepared.solve(options.tolerance, &mut |_| {});
     keep(&mut prepared, &first, options, &mut found);
     let mut random = Random(seed);
     for _ in 0..guesses {
+        if options.interrupt.is_raised() {
+            break;
+        }
         let strengths = prepared.problem.node_strengths();
         let size = STRONGEST * 10.0_f64.powf(-ORDERS * random.next());
         let kick: Vec<_> =

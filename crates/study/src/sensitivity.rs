@@ -11,9 +11,10 @@ use crate::Prepared;
 use crate::family::{Family, SMALL, size_of};
 use crate::solve::What;
 use flexura_equilibrium::{CENTRAL, ProblemError};
+use flexura_model::Model;
 use flexura_nonlinear::{Breakdown, System};
 use flexura_post::{OutputValue, PostError};
-use flexura_solution::Sensitivities;
+use flexura_solution::{Sensitivities, Solution};
 use nalgebra::{DMatrix, DVector};
 
 /// First relative step of the differences, and by how much the next ones are shorter.
@@ -22,6 +23,8 @@ const SHORTER: f64 = 0.25;
 /// Relative difference of two estimates that is good enough, and how many are tried.
 const AGREED: f64 = 1e-11;
 const TRIES: usize = 5;
+/// Parameters that a warning names.
+const TOLD: usize = 5;
 
 /// Why derivatives cannot be had.
 #[derive(Clone, Debug)]
@@ -37,6 +40,7 @@ pub enum SensitivityError {
 impl std::fmt::Display for SensitivityError {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
+            SensitivityError::Tangent(Breakdown::Interrupted) => formatter.write_str("no sensitivities: interrupted"),
             SensitivityError::Tangent(_) => {
                 formatter.write_str("no sensitivities: the equilibrium is at a fold or branch point")
             }
@@ -45,6 +49,59 @@ impl std::fmt::Display for SensitivityError {
             }
             SensitivityError::Output(error) => write!(formatter, "no sensitivities: {error}"),
         }
+    }
+}
+
+impl SensitivityError {
+    /// Why one parameter alone is left out: what is wrong with the mechanisms next to this one.
+    fn of_neighbours(self) -> String {
+        match self {
+            SensitivityError::Tangent(Breakdown::Interrupted) => "interrupted".to_string(),
+            SensitivityError::Tangent(_) => "the mechanism next to this one gives no sound numbers".to_string(),
+            SensitivityError::Model(error) => error.message,
+            SensitivityError::Output(error) => error.to_string(),
+        }
+    }
+}
+
+/// What to know of sensitivities that are not there.
+pub(crate) fn warnings(model: &Model, solution: &Solution, found: &Sensitivities) -> Vec<String> {
+    let name = |parameter: usize| format!("`{}`", model.parameters[parameter].name);
+    let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
+    for (parameter, reason) in &found.left_out {
+        match reasons.iter_mut().find(|(known, _)| known == reason) {
+            Some((_, names)) => names.push(name(*parameter)),
+            None => reasons.push((reason, vec![name(*parameter)])),
+        }
+    }
+    let mut warnings: Vec<String> = reasons
+        .into_iter()
+        .map(|(reason, names)| format!("no sensitivities to {}: {reason}", listed(names)))
+        .collect();
+    let values = flexura_post::each_output(model, solution);
+    for (output, components) in values.iter().zip(&found.outputs) {
+        let Ok(output) = output else { continue };
+        let lacks = |column: &usize| components.iter().any(|component| component[*column].is_none());
+        let names: Vec<String> =
+            (0..found.parameters.len()).filter(lacks).map(|column| name(found.parameters[column])).collect();
+        if !names.is_empty() {
+            let (names, output) = (listed(names), &output.name);
+            warnings.push(format!("no sensitivity of `{output}` to {names}: next to this equilibrium it has no value"));
+        }
+    }
+    warnings
+}
+
+/// Names of which only the first few are told.
+fn listed(mut names: Vec<String>) -> String {
+    let more = names.len().saturating_sub(TOLD);
+    if more > 1 {
+        names.truncate(TOLD);
+        names.push(format!("{more} more"));
+    }
+    match names.split_last() {
+        Some((last, others)) if !others.is_empty() => format!("{} and {last}", others.join(", ")),
+        _ => names.concat(),
     }
 }
 
@@ -67,19 +124,21 @@ impl From<PostError> for SensitivityError {
 }
 
 impl Prepared {
-    /// The outputs of the present state, components one after another, then by how much each target is missed.
-    pub(crate) fn outputs_here(&mut self) -> Result<Vec<f64>, SensitivityError> {
+    /// The outputs of the present state, components one after another, those without a value as None; then by how much each
+    /// target is missed.
+    pub(crate) fn outputs_here(&mut self) -> Result<Vec<Option<f64>>, SensitivityError> {
         let solution = self.light_solution(What::Both)?;
         let model = self.problem.model();
         let mut values = Vec::new();
-        for output in flexura_post::outputs(model, &solution)? {
-            match output.value {
-                OutputValue::Number(v) => values.push(v),
-                OutputValue::Vector(v) => values.extend(v),
+        for (output, result) in model.outputs.iter().zip(flexura_post::each_output(model, &solution)) {
+            match result.map(|result| result.value) {
+                Ok(OutputValue::Number(v)) => values.push(Some(v)),
+                Ok(OutputValue::Vector(v)) => values.extend(v.map(Some)),
+                Err(_) => values.extend(output.formulas.iter().map(|_| None)),
             }
         }
         let targets = flexura_post::targets(model, &solution)?;
-        values.extend(targets.iter().zip(&model.targets).map(|(value, target)| value - target.value));
+        values.extend(targets.iter().zip(&model.targets).map(|(value, target)| Some(value - target.value)));
         Ok(values)
     }
 
@@ -127,16 +186,18 @@ impl Prepared {
         let unknown: Vec<usize> = model.unknowns.iter().map(|u| u.parameter).collect();
         let mut given: Vec<usize> = parameters.iter().copied().filter(|p| !unknown.contains(p)).collect();
         let (mut columns, mut left_out) = (Vec::new(), Vec::new());
+        self.problem.linearise()?;
         for &parameter in unknown.iter().chain(&given) {
             let value = self.problem.model().parameters[parameter].value;
             let size = size_of(self.problem.model(), parameter, self.problem.units(), SMALL);
             let (slopes, along) = match self.slopes(family, parameter, value, size) {
                 Ok(found) => found,
-                Err(SensitivityError::Model(error)) if !unknown.contains(&parameter) => {
-                    left_out.push((parameter, error.message));
+                // The targets cannot be kept without what keeps them.
+                Err(error) if unknown.contains(&parameter) => return Err(error),
+                Err(error) => {
+                    left_out.push((parameter, error.of_neighbours()));
                     continue;
                 }
-                Err(error) => return Err(error),
             };
             let twists = self.problem.body_motions(&along);
             columns.push((slopes, twists));
@@ -144,7 +205,8 @@ impl Prepared {
         given.retain(|parameter| left_out.iter().all(|(out, _)| out != parameter));
         // What an unknown parameter must do so that the targets are kept while a given one moves.
         let given_columns = columns.split_off(unknown.len());
-        let matrix = DMatrix::from_fn(targets, unknown.len(), |i, k| columns[k].0[outputs + i]).lu();
+        let missed = |slopes: &[Option<f64>], i: usize| slopes[outputs + i].unwrap_or(0.0);
+        let matrix = DMatrix::from_fn(targets, unknown.len(), |i, k| missed(&columns[k].0, i)).lu();
         let mut result = Sensitivities {
             parameters: given.clone(),
             outputs: components.iter().map(|n| vec![Vec::new(); *n]).collect(),
@@ -154,11 +216,13 @@ impl Prepared {
         };
         for (mut slopes, mut twists) in given_columns {
             if targets > 0 {
-                let right = DVector::from_fn(targets, |i, _| -slopes[outputs + i]);
+                let right = DVector::from_fn(targets, |i, _| -missed(&slopes, i));
                 let follow = matrix.solve(&right).ok_or(Breakdown::Singular)?;
                 for ((by, (along, turns)), list) in follow.iter().zip(&columns).zip(&mut result.unknowns) {
                     list.push(*by);
-                    slopes.iter_mut().zip(along).for_each(|(s, a)| *s += by * a);
+                    for (slope, along) in slopes.iter_mut().zip(along) {
+                        *slope = slope.zip(*along).map(|(slope, along)| slope + by * along);
+                    }
                     for (twist, turn) in twists.iter_mut().zip(turns) {
                         twist.angular += turn.angular * *by;
                         twist.linear += turn.linear * *by;
@@ -167,7 +231,7 @@ impl Prepared {
             }
             let mut slopes = slopes.into_iter();
             for component in result.outputs.iter_mut().flatten() {
-                component.push(slopes.next().unwrap_or(0.0));
+                component.push(slopes.next().flatten());
             }
             for (list, twist) in result.bodies.iter_mut().zip(twists) {
                 list.push(twist);
@@ -176,14 +240,14 @@ impl Prepared {
         Ok(result)
     }
 
-    /// Derivatives of the outputs, and of the state, along one parameter.
+    /// Derivatives of the outputs, and of the state, along one parameter; None of those that have no value somewhere beside it.
     fn slopes(
         &mut self,
         family: &mut dyn Family,
         parameter: usize,
         value: f64,
         size: f64,
-    ) -> Result<(Vec<f64>, Vec<f64>), SensitivityError> {
+    ) -> Result<(Vec<Option<f64>>, Vec<f64>), SensitivityError> {
         let mut kept = Vec::new();
         self.problem.store(&mut kept);
         let mut h = FIRST * size;
@@ -192,7 +256,7 @@ impl Prepared {
         for _ in 0..TRIES {
             self.problem.linearise()?;
             along = self.state_slope(family, parameter, value, h)?;
-            let mut sum: Vec<(f64, f64)> = Vec::new();
+            let mut sum: Vec<Option<(f64, f64)>> = Vec::new();
             for (factor, weight) in CENTRAL {
                 let law = self
                     .problem
@@ -204,22 +268,24 @@ impl Prepared {
                 self.problem.exchange(own);
                 self.problem.restore(&kept);
                 let outputs = outputs?;
-                sum.resize(outputs.len(), (0.0, 0.0));
-                for ((slope, level), y) in sum.iter_mut().zip(&outputs) {
-                    *slope += weight / h * y;
-                    *level = level.max(y.abs());
+                sum.resize(outputs.len(), Some((0.0, 0.0)));
+                for (sum, y) in sum.iter_mut().zip(&outputs) {
+                    *sum = sum.zip(*y).map(|((slope, level), y)| (slope + weight / h * y, level.max(y.abs())));
                 }
             }
             best.resize(sum.len(), Estimate::default());
-            for (estimate, (slope, level)) in best.iter_mut().zip(&sum) {
-                estimate.take(*slope, 1e-13 * level / size);
+            for (estimate, sum) in best.iter_mut().zip(&sum) {
+                match sum {
+                    Some((slope, level)) => estimate.take(*slope, 1e-13 * level / size),
+                    None => *estimate = Estimate::default(),
+                }
             }
             if best.iter().all(|estimate| estimate.apart < AGREED) {
                 break;
             }
             h *= SHORTER;
         }
-        Ok((best.iter().map(|estimate| estimate.slope).collect(), along))
+        Ok((best.iter().map(|estimate| estimate.last.map(|_| estimate.slope)).collect(), along))
     }
 }
 

@@ -2,7 +2,8 @@
 
 use crate::family::Family;
 use crate::inverse::Border;
-use flexura_equilibrium::{Equilibrium, Finish, ProblemError, Stability};
+use crate::sensitivity;
+use flexura_equilibrium::{Equilibrium, Finish, Interrupt, ProblemError, Stability};
 use flexura_model::{BeamPoint, LoadId, Model, Output, ProbeTarget, Quantity};
 use flexura_nonlinear::{Breakdown, NewtonEnd, PathEnd, PathOptions, PathWork, System, follow};
 use flexura_solution::{Solution, Status};
@@ -22,11 +23,20 @@ pub struct Options {
     pub sensitivities: bool,
     /// An earlier result to start from, of this or a neighbouring model, in place of the rest state.
     pub from: Option<Box<Solution>>,
+    /// Ends the study early, with what it has found, once it is raised.
+    pub interrupt: Interrupt,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { tolerance: 1e-8, samples: 101, compliances: Vec::new(), sensitivities: false, from: None }
+        Self {
+            tolerance: 1e-8,
+            samples: 101,
+            compliances: Vec::new(),
+            sensitivities: false,
+            from: None,
+            interrupt: Interrupt::default(),
+        }
     }
 }
 
@@ -122,6 +132,21 @@ impl Prepared {
     /// The model as it stands: of an inverse problem with the values found.
     pub fn model(&self) -> &Model {
         self.problem.model()
+    }
+
+    /// Ends every solve early, with what it has found, once this flag is raised.
+    pub fn heed(&mut self, interrupt: &Interrupt) {
+        self.problem.heed(interrupt);
+    }
+
+    /// Where a solve from rest was ended.
+    pub(crate) fn interrupted(&self, path: PathWork) -> Outcome {
+        Outcome {
+            status: Status::Interrupted,
+            reason: Some(format!("interrupted at {:.4} % of the load", 100.0 * self.problem.load_fraction())),
+            error_estimate: f64::NAN,
+            path,
+        }
     }
 
     /// Puts a neighbouring model, made of the same parts, under the present state, to be solved from there.
@@ -240,6 +265,7 @@ impl Prepared {
                 error_estimate: f64::NAN,
                 path,
             },
+            PathEnd::Interrupted { .. } => self.interrupted(path),
             PathEnd::SingularAtRest => Outcome {
                 status: Status::Singular,
                 reason: Some("the unloaded mechanism has a motion without resistance".to_string()),
@@ -285,6 +311,9 @@ impl Prepared {
     pub(crate) fn finish(&mut self, tolerance: f64, path: PathWork, nearest: f64) -> Outcome {
         let (status, reason, error_estimate) = match self.problem.finish(tolerance, nearest) {
             Finish::Done { error } => (Status::Converged, None, error),
+            Finish::Failed(NewtonEnd::Broken(Breakdown::Interrupted)) => {
+                return self.interrupted(path);
+            }
             Finish::AccuracyLimit { error } => (
                 Status::AccuracyLimit,
                 Some(format!(
@@ -426,6 +455,7 @@ pub fn solve_family(
         _ => None,
     });
     let mut prepared = Prepared::with_probes(model, &probes.collect::<Vec<_>>())?;
+    prepared.heed(&options.interrupt);
     let near = options.from.as_ref().and_then(|from| prepared.solve_near(from, options.tolerance));
     let far = options.from.is_some() && near.is_none();
     let outcome = match (near, model.unknowns.is_empty()) {
@@ -436,7 +466,7 @@ pub fn solve_family(
     };
     let samples = options.samples.min((MOST_SAMPLES / model.beams.len().max(1)).max(FEWEST_SAMPLES));
     let mut solution = prepared.solution(&outcome, samples);
-    if far {
+    if far && outcome.status != Status::Interrupted {
         solution.warnings.push(
             "the earlier result is too far from an equilibrium of this model; it was solved from rest"
                 .to_string(),
@@ -448,10 +478,11 @@ pub fn solve_family(
             let parameters: Vec<usize> = (0..model.parameters.len()).collect();
             match prepared.sensitivities(family, &parameters) {
                 Ok(sensitivities) => {
-                    for (parameter, reason) in &sensitivities.left_out {
-                        let name = &prepared.model().parameters[*parameter].name;
-                        solution.warnings.push(format!("no sensitivities to `{name}`: {reason}"));
-                    }
+                    solution.warnings.extend(sensitivity::warnings(
+                        prepared.model(),
+                        &solution,
+                        &sensitivities,
+                    ));
                     solution.sensitivities = Some(sensitivities);
                 }
                 Err(error) => solution.warnings.push(error.to_string()),
@@ -470,6 +501,9 @@ impl Prepared {
             .extend(further.iter().filter(|target| !targets.contains(target)).copied().collect::<Vec<_>>());
         match self.problem.tangents(&targets) {
             Ok(tangents) => solution.tangents = tangents,
+            Err(Breakdown::Interrupted) => {
+                solution.warnings.push("no compliances: interrupted".to_string());
+            }
             Err(_) => solution.warnings.push(
                 "no compliances: the tangent has no inverse here, which is a fold or branch point"
                     .to_string(),

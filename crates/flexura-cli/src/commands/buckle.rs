@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use flexura::model::{BuckleStudy, StudyKind};
 use flexura::modelfile::{Document, Flag};
 use flexura::output::{OutputError, modes_csv, modes_svg};
-use flexura::solution::{Solution, Status};
+use flexura::solution::Solution;
 use flexura::{Buckled, FileFamily};
 
 pub fn run(arguments: &BuckleArguments) -> Result<(), Failure> {
@@ -45,22 +45,18 @@ pub fn study(task: &Task<'_>, name: &str, study: &BuckleStudy) -> Result<Answer,
             files.push(("shapes.svg", modes_svg(model, buckling)));
         }
     }
-    let mut warnings = buckling.solution.warnings.clone();
-    warnings.extend(buckled.without_value.iter().map(ToString::to_string));
     Ok(Answer {
         document,
         files,
         summary: buckling_summary::render(model, study, buckling),
-        warnings,
+        without_value: buckled.evaluation.without_value.clone(),
+        warnings: buckling.solution.warnings.clone(),
         failure: failure(&buckling.solution),
+        growing: None,
     })
 }
 
 fn failure(solution: &Solution) -> Option<Failure> {
-    if solution.status == Status::Converged {
-        return None;
-    }
-    let word = solution.status.word().replace('_', " ");
     let reason = solution.reason.as_deref().unwrap_or("the equilibrium could not be found");
-    Some(Failure::NotConverged(format!("not converged, {word}: {reason}")))
+    Failure::of(solution.status, Some(reason))
 }

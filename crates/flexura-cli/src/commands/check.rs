@@ -20,7 +20,7 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     if arguments.json {
         let text = to_json(&CheckDocument::new(&model, &census))
             .map_err(|error| Failure::Machine(error.to_string()))?;
-        screen::print(&text)?;
+        screen::print_table(&text)?;
     } else if !arguments.quiet {
         screen::print(&render(&model, &census))?;
     }
@@ -36,7 +36,7 @@ fn total(items: &[(String, usize)]) -> usize {
 
 fn render(model: &Model, census: &Census) -> String {
     let (unknowns, equations) = (total(&census.unknowns), total(&census.equations));
-    let name = if model.name.is_empty() { "mechanism" } else { &model.name };
+    let name = screen::title(&model.name);
     let verdict = if unknowns == equations {
         styled(GOOD, "as many as there are equations")
     } else {

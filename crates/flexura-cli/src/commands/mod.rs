@@ -15,7 +15,8 @@ pub mod trace;
 use crate::failure::Failure;
 use crate::screen;
 use flexura::ProblemError;
-use flexura::modelfile::{Document, Report, ReportKind};
+use flexura::modelfile::{Document, Report, ReportKind, Severity};
+use flexura::post::PostError;
 
 /// Anything that is wrong with a model file, as the command's end.
 pub fn file_failure(report: &Report) -> Failure {
@@ -38,6 +39,15 @@ pub fn study_failure(file: &Document, name: &str, error: &ProblemError) -> Failu
         return problem_failure(file, error);
     }
     problem_failure(file, &ProblemError { path: format!("study.{name}"), ..error.clone() })
+}
+
+/// Outputs that have no value, each where the file asks for it.
+pub fn warn_of_outputs(file: &Document, without_value: &[PostError]) {
+    for error in without_value {
+        let mut problem = file.problem(&format!("output.{}", error.output()), &error.to_string(), None);
+        problem.severity = Severity::Warning;
+        screen::note(problem.render(true).trim_end());
+    }
 }
 
 /// What looks unintended in the file though it can be solved.

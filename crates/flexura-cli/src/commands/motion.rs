@@ -7,7 +7,7 @@ use crate::motion_summary;
 use crate::progress::MotionMeter;
 use flexura::model::InverseDynamicsStudy;
 use flexura::output::{OutputError, motion_csv, motion_document, motion_svg};
-use flexura::solution::{InverseDynamics, Status};
+use flexura::solution::InverseDynamics;
 use flexura::{FileFamily, motion_view};
 
 /// A motion in time of a file's model.
@@ -36,16 +36,14 @@ pub fn study(task: &Task<'_>, name: &str, study: &InverseDynamicsStudy) -> Resul
         document,
         files,
         summary: motion_summary::render(model, &motion),
+        without_value: Vec::new(),
         warnings: motion.warnings.clone(),
         failure: failure(&motion),
+        growing: None,
     })
 }
 
 fn failure(motion: &InverseDynamics) -> Option<Failure> {
-    if motion.status == Status::Converged {
-        return None;
-    }
-    let word = motion.status.word().replace('_', " ");
     let reason = motion.reason.as_deref().unwrap_or("the motion could not be gone through");
-    Some(Failure::NotConverged(format!("not converged, {word}: {reason}")))
+    Failure::of(motion.status, Some(reason))
 }

@@ -1,6 +1,6 @@
 //! `flexura run FILE [STUDY]`
 
-use super::{buckle, file_failure, motion, solve, trace, warn_about};
+use super::{buckle, file_failure, motion, solve, trace, warn_about, warn_of_outputs};
 use crate::answer::{Answer, StudyDocument, Task, json};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
@@ -10,6 +10,7 @@ use flexura::modelfile::Document;
 use flexura::output::Named;
 use flexura::{Error, study_named};
 use serde::Serialize;
+use std::path::Path;
 
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
@@ -21,9 +22,13 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut documents = Vec::new();
     let mut failed = Vec::new();
     for study in &studies {
-        let answer = answer(&task, study)?;
+        if task.options.interrupt.is_raised() {
+            failed.push((study.name.as_str(), Failure::Interrupted("interrupted before it began".to_owned())));
+            continue;
+        }
         let folder = task.folder.as_ref().map(|folder| folder.join(&study.name));
-        task.write(&answer, folder.as_deref())?;
+        let mut answer = answer(&task, study, folder.as_deref())?;
+        task.write(&mut answer, folder.as_deref())?;
         if !task.is_quiet && !task.is_json {
             let heading = styled(BOLD, &format!("study {}", study.name));
             let gap = if study.name == studies[0].name { "" } else { "\n" };
@@ -31,13 +36,14 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         }
         if !task.is_quiet {
             answer.warnings.iter().for_each(|warning| screen::warn(&format!("{}: {warning}", study.name)));
+            warn_of_outputs(&task.file, &answer.without_value);
             task.tell_files(&answer, folder.as_deref());
         }
         failed.extend(answer.failure.map(|failure| (study.name.as_str(), failure)));
         documents.extend(answer.document.map(|document| (study.name.clone(), document)));
     }
     if task.is_json {
-        screen::print(&match (&arguments.study, documents.pop()) {
+        screen::print_table(&match (&arguments.study, documents.pop()) {
             (Some(_), Some((_, only))) => json(&only)?,
             (_, last) => {
                 documents.extend(last);
@@ -45,7 +51,11 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
                     flexura: env!("CARGO_PKG_VERSION"),
                     model: &task.model.name,
                     study: "run",
-                    status: if failed.is_empty() { "converged" } else { "incomplete" },
+                    status: match () {
+                        () if task.options.interrupt.is_raised() => "interrupted",
+                        () if failed.is_empty() => "converged",
+                        () => "incomplete",
+                    },
                     studies: Named(documents),
                 })?
             }
@@ -71,10 +81,10 @@ fn chosen<'t>(task: &'t Task<'_>, name: Option<&str>) -> Result<Vec<&'t Study>, 
     Ok(vec![study])
 }
 
-fn answer(task: &Task<'_>, study: &Study) -> Result<Answer, Failure> {
+fn answer(task: &Task<'_>, study: &Study, folder: Option<&Path>) -> Result<Answer, Failure> {
     match &study.kind {
         StudyKind::Solve => solve::study(task, None),
-        StudyKind::Trace(trace) => trace::study(task, &study.name, trace),
+        StudyKind::Trace(trace) => trace::study(task, &study.name, trace, folder),
         StudyKind::Buckle(buckle) => buckle::study(task, &study.name, buckle),
         StudyKind::InverseDynamics(motion) => motion::study(task, &study.name, motion),
     }
@@ -93,6 +103,7 @@ fn end(mut failed: Vec<(&str, Failure)>, count: usize) -> Result<(), Failure> {
             Err(match worst.map(|position| failed.swap_remove(position).1) {
                 Some(Failure::Input(_)) => Failure::Input(text),
                 Some(Failure::Machine(_)) => Failure::Machine(text),
+                Some(Failure::Interrupted(_)) => Failure::Interrupted(text),
                 _ => Failure::NotConverged(text),
             })
         }

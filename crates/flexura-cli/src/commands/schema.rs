@@ -4,5 +4,5 @@ use crate::failure::Failure;
 use crate::screen;
 
 pub fn run() -> Result<(), Failure> {
-    screen::print(&format!("{}\n", flexura::modelfile::schema().trim_end()))
+    screen::print_table(&format!("{}\n", flexura::modelfile::schema().trim_end()))
 }

@@ -12,7 +12,7 @@ use flexura::modelfile::Document;
 use flexura::output::{
     OutputError, beams_csv, document as document_of, equilibrium_document, model_vtp, shape_svg,
 };
-use flexura::post::{Evaluation, PostError, Scales, evaluate_each, summarise};
+use flexura::post::{Evaluation, Scales, evaluate_each, summarise};
 use flexura::solution::{Solution, Status};
 use flexura::{FileFamily, Options, equilibria, place, solve_family};
 
@@ -36,13 +36,15 @@ pub fn study(task: &Task<'_>, guesses: Option<(usize, u64)>) -> Result<Answer, F
     let solved = solve_family(&task.model, &mut family, options, &mut |progress| meter.update(progress));
     meter.finish();
     let (mut solution, model) = solved.map_err(|error| problem_failure(file, &error))?;
-    let mut warnings = solution.warnings.clone();
-    let (evaluation, without_value) = evaluation(&model, &mut solution);
+    let warnings = solution.warnings.clone();
+    let evaluation = evaluate_each(&model, &solution);
+    // The document's warnings tell of outputs without a value too; a person is shown where they stand.
+    solution.warnings.extend(evaluation.without_value.iter().map(ToString::to_string));
     let others = match guesses {
         Some(guesses) => other_equilibria(file, &model, &solution, options, guesses)?,
         None => Vec::new(),
     };
-    let failed = || (solution.status != Status::Converged).then(|| not_converged(&solution));
+    let failed = || not_converged(&solution);
 
     // The document is written out even when the solve did not converge: it says how far that came and why.
     let refused = |error: OutputError| unwritable(failed(), &error.to_string());
@@ -69,17 +71,9 @@ pub fn study(task: &Task<'_>, guesses: Option<(usize, u64)>) -> Result<Answer, F
     if guesses.is_some() {
         summary += &equilibria_table(&solution, &others);
     }
-    let complaints: Vec<String> = without_value.iter().map(ToString::to_string).collect();
-    let failure = match failed() {
-        None if complaints.is_empty() => None,
-        None => Some(Failure::Input(complaints.join("; "))),
-        failed => {
-            // Outputs of a state that is not the answer may well have no value.
-            warnings.extend(complaints);
-            failed
-        }
-    };
-    Ok(Answer { document, files, summary, warnings, failure })
+    let failure = failed();
+    let without_value = evaluation.without_value;
+    Ok(Answer { document, files, summary, without_value, warnings, failure, growing: None })
 }
 
 fn add_options(arguments: &SolveArguments, task: &mut Task<'_>) -> Result<(), Failure> {
@@ -96,13 +90,6 @@ fn add_options(arguments: &SolveArguments, task: &mut Task<'_>) -> Result<(), Fa
         options.from = Some(Box::new(earlier::read(path, &task.model)?));
     }
     Ok(())
-}
-
-/// The outputs that have a value; the others become warnings of the solution and are returned.
-fn evaluation(model: &Model, solution: &mut Solution) -> (Evaluation, Vec<PostError>) {
-    let (evaluation, without_value) = evaluate_each(model, solution);
-    solution.warnings.extend(without_value.iter().map(ToString::to_string));
-    (evaluation, without_value)
 }
 
 /// All equilibria that are found under the load of the solution, which is the one from rest.
@@ -124,7 +111,7 @@ fn other_equilibria(
     let converged = found.into_iter().filter(|other| other.status == Status::Converged);
     Ok(converged
         .map(|other| {
-            let evaluation = evaluate_each(&model, &other).0;
+            let evaluation = evaluate_each(&model, &other);
             (other, evaluation)
         })
         .collect())
@@ -166,10 +153,13 @@ fn is_same(a: &Solution, b: &Solution, scales: &Scales) -> bool {
     a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a - b).norm() <= SAME * scales.length)
 }
 
-fn not_converged(solution: &Solution) -> Failure {
-    let standstill = summary::standstill(solution.status, solution.load_fraction);
+fn not_converged(solution: &Solution) -> Option<Failure> {
     let reason = solution.reason.as_deref().unwrap_or_else(|| advice(solution.status));
-    Failure::NotConverged(format!("not converged, {standstill}: {reason}"))
+    if matches!(solution.status, Status::Converged | Status::Interrupted) {
+        return Failure::of(solution.status, Some(reason));
+    }
+    let standstill = summary::standstill(solution.status, solution.load_fraction);
+    Some(Failure::NotConverged(format!("not converged, {standstill}: {reason}")))
 }
 
 fn advice(status: Status) -> &'static str {
@@ -182,5 +172,6 @@ fn advice(status: Status) -> &'static str {
         Status::Singular => "something can move without resistance here; see `flexura check`",
         Status::Inconsistent => "its joints cannot all be kept; free one, or correct their places and axes",
         Status::AccuracyLimit => "double precision gives no more here; try a larger --tolerance",
+        Status::Interrupted => "it was ended before the equilibrium was found",
     }
 }

@@ -1,83 +1,155 @@
 //! `flexura sweep FILE --vary P=A:B:N`
 
 use super::{file_failure, warn_about};
+use crate::answer::json;
 use crate::arguments::SweepArguments;
 use crate::failure::Failure;
+use crate::files::{self, Growing};
 use crate::progress::Counter;
-use crate::screen;
-use flexura::model::Model;
+use crate::{interrupt, screen};
+use flexura::model::{Model, visible};
 use flexura::modelfile::Document;
-use flexura::output::{Named, Value, to_json};
-use flexura::post::OutputValue;
-use flexura::{Axis, Options, Sample, Sweep};
+use flexura::output::{Named, Value, csv_line};
+use flexura::post::{OutputResult, OutputValue};
+use flexura::solution::Status;
+use flexura::{Axis, Interrupt, Options, Sample, SampleStatus, Sweep};
 use serde::Serialize;
-use std::fs::{self, OpenOptions};
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let overrides = &arguments.model.overrides;
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
     let model = file.model(overrides).map_err(|report| file_failure(&report))?;
-    let mut options = Options::default();
+    let mut options = Options { interrupt: interrupt::listen(), ..Options::default() };
     if let Some(tolerance) = arguments.tolerance {
         options.tolerance = tolerance;
     }
     let axes = arguments.vary.iter().map(|text| Axis::parse(&model, text)).collect::<Result<Vec<_>, _>>();
     let sweep = axes.and_then(|axes| Sweep::new(&file, overrides, axes, &options)).map_err(Failure::Input)?;
-    if let Some(path) = &arguments.output {
-        // Hours of work should not end at a folder that is not there.
-        OpenOptions::new()
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(path)
-            .map_err(|error| unwritable(path, &error))?;
-    }
+    let table = Table::new(&model, sweep.axes());
+    // Hours of work should not end at a folder that is not there.
+    let path = arguments.output.as_deref();
+    let rows = match path {
+        Some(path) => Rows::File(Growing::begin(path, &table.header())?),
+        None if arguments.model.json => Rows::None,
+        None => Rows::Screen(Ordered::begin(&table.header(), &options.interrupt)),
+    };
     if !arguments.model.quiet {
         warn_about(&file, &[]);
     }
 
     let counter = Counter::new(arguments.model.quiet, sweep.count());
+    let rows = Mutex::new(rows);
     let jobs = arguments.jobs.map(usize::from);
-    let samples = sweep.run(jobs, &|| counter.count()).map_err(Failure::Machine)?;
+    let samples = sweep.run(jobs, &|position, sample| {
+        counter.count();
+        // A thread that panicked while it wrote has left nothing that another could spoil.
+        rows.lock().unwrap_or_else(PoisonError::into_inner).add(position, || table.row(sample));
+    });
+    let samples = samples.map_err(Failure::Machine)?;
     counter.finish();
 
-    let table = csv(&model, sweep.axes(), &samples);
-    if let Some(path) = &arguments.output {
-        fs::write(path, &table).map_err(|error| unwritable(path, &error))?;
+    if let Some(path) = path {
+        let text = samples.iter().fold(table.header(), |text, sample| text + &table.row(sample));
+        files::replace(path, &text)?;
     }
+    rows.into_inner().unwrap_or_else(PoisonError::into_inner).finish(&samples, |sample| table.row(sample))?;
     if arguments.model.json {
-        let document = SweepDocument::new(&model, sweep.axes(), &samples);
-        screen::print(&to_json(&document).map_err(|error| Failure::Machine(error.to_string()))?)?;
-    } else if arguments.output.is_none() {
-        screen::print(&table)?;
+        let document = SweepDocument::new(&table, &samples);
+        screen::print_table(&json(&document)?)?;
     }
     if !arguments.model.quiet {
-        tell(arguments, &samples);
+        tell(arguments, &table, &samples);
     }
-    match complaint(&samples) {
-        Some(complaint) => Err(Failure::NotConverged(complaint)),
-        None => Ok(()),
+    complaint(&samples).map_or(Ok(()), Err)
+}
+
+/// Where rows go while they are found.
+enum Rows {
+    None,
+    /// As they come, beside the table that will hold all of them.
+    File(Growing),
+    /// In the order of the grid.
+    Screen(Ordered),
+}
+
+impl Rows {
+    fn add(&mut self, position: usize, row: impl FnOnce() -> String) {
+        match self {
+            Rows::None => {}
+            Rows::File(growing) => growing.add(&row()),
+            Rows::Screen(ordered) => ordered.add(position, row()),
+        }
+    }
+
+    /// All samples are known, those that were not solved too.
+    fn finish(self, samples: &[Sample], row: impl Fn(&Sample) -> String) -> Result<(), Failure> {
+        match self {
+            Rows::None => Ok(()),
+            Rows::File(growing) => {
+                growing.finish();
+                Ok(())
+            }
+            Rows::Screen(ordered) => ordered.finish(samples, row),
+        }
     }
 }
 
-fn unwritable(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::Machine(format!("cannot write {}: {error}", path.display()))
+/// Rows on standard output. One that comes before its turn waits for those before it.
+struct Ordered {
+    next: usize,
+    waiting: BTreeMap<usize, String>,
+    failure: Option<Failure>,
+    /// Raised when nothing can be written any more: then nothing needs to be solved.
+    interrupt: Interrupt,
+}
+
+impl Ordered {
+    fn begin(header: &str, interrupt: &Interrupt) -> Self {
+        let waiting = BTreeMap::new();
+        let mut ordered = Self { next: 0, waiting, failure: None, interrupt: interrupt.clone() };
+        ordered.print(header);
+        ordered
+    }
+
+    fn add(&mut self, position: usize, row: String) {
+        self.waiting.insert(position, row);
+        while let Some(row) = self.waiting.remove(&self.next) {
+            self.next += 1;
+            self.print(&row);
+        }
+    }
+
+    fn print(&mut self, text: &str) {
+        if self.failure.is_none()
+            && let Err(failure) = screen::print_table(text)
+        {
+            self.failure = Some(failure);
+            self.interrupt.raise();
+        }
+    }
+
+    fn finish(mut self, samples: &[Sample], row: impl Fn(&Sample) -> String) -> Result<(), Failure> {
+        for sample in samples.iter().skip(self.next) {
+            self.print(&row(sample));
+        }
+        self.failure.map_or(Ok(()), Err)
+    }
 }
 
 /// What became of it, on standard error.
-fn tell(arguments: &SweepArguments, samples: &[Sample]) {
-    let without_value =
-        samples.iter().filter(|sample| sample.outputs.iter().any(Option::is_none)).collect::<Vec<_>>();
-    if let Some(reason) = without_value.first().and_then(|sample| sample.reason.as_deref()) {
+fn tell(arguments: &SweepArguments, table: &Table<'_>, samples: &[Sample]) {
+    let without_value = samples.iter().filter(|sample| !sample.output_reasons.is_empty()).collect::<Vec<_>>();
+    if let Some((_, reason)) = without_value.first().and_then(|sample| sample.output_reasons.first()) {
         let count = without_value.len();
         let plural = if count == 1 { "sample lacks" } else { "samples lack" };
         screen::warn(&format!("{count} converged {plural} the value of an output: {reason}"));
     }
-    for warning in common_warnings(samples) {
+    for warning in &table.known {
         screen::warn(warning);
     }
-    let warned = samples.iter().filter(|s| !own_warnings(s, &common_warnings(samples)).is_empty()).count();
+    let warned = samples.iter().filter(|sample| !table.own_warnings(sample).is_empty()).count();
     if warned > 0 {
         screen::warn(&format!(
             "{warned} of {} samples have warnings, which stand in their rows",
@@ -85,59 +157,82 @@ fn tell(arguments: &SweepArguments, samples: &[Sample]) {
         ));
     }
     if let Some(path) = &arguments.output {
-        screen::note(&format!("wrote {} samples into {}", samples.len(), path.display()));
+        let path = path.to_string_lossy();
+        screen::note(&format!("wrote {} samples into {}", samples.len(), visible(&path)));
     }
 }
 
 /// How many samples ended in which way, unless all converged.
-fn complaint(samples: &[Sample]) -> Option<String> {
+fn complaint(samples: &[Sample]) -> Option<Failure> {
     let mut counts: Vec<(&str, usize)> = Vec::new();
-    for word in samples.iter().filter(|sample| !sample.status.is_converged()).map(|s| s.status.word()) {
+    let solved = samples.iter().filter(|sample| !is_interrupted(sample)).count();
+    let failed = samples.iter().filter(|sample| !sample.status.is_converged() && !is_interrupted(sample));
+    for word in failed.map(|sample| sample.status.word()) {
         match counts.iter_mut().find(|(known, _)| *known == word) {
             Some((_, count)) => *count += 1,
             None => counts.push((word, 1)),
         }
     }
-    if counts.is_empty() {
-        return None;
-    }
     let failed: usize = counts.iter().map(|(_, count)| count).sum();
     let list: Vec<String> = counts.iter().map(|(word, count)| format!("{count} {word}")).collect();
-    Some(format!("{failed} of {} samples did not converge: {}", samples.len(), list.join(", ")))
+    let failed = (failed > 0).then(|| format!("{failed} of {solved} samples did not converge: {}", list.join(", ")));
+    if solved == samples.len() {
+        return failed.map(Failure::NotConverged);
+    }
+    let interrupted = format!("interrupted when {solved} of {} samples were solved", samples.len());
+    let parts: Vec<String> = std::iter::once(interrupted).chain(failed).collect();
+    Some(Failure::Interrupted(parts.join("; ")))
+}
+
+fn is_interrupted(sample: &Sample) -> bool {
+    sample.status == SampleStatus::Solved(Status::Interrupted)
 }
 
 /// The table: varied parameters, status, what was found, outputs, energy, error estimate, reason.
-fn csv(model: &Model, axes: &[Axis], samples: &[Sample]) -> String {
-    let headed = |name: &str, unit: &str| {
-        if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") }
-    };
-    let mut header: Vec<String> = axes.iter().map(|axis| headed(&axis.parameter, &axis.unit)).collect();
-    header.push("status".into());
-    for unknown in &model.unknowns {
-        let parameter = &model.parameters[unknown.parameter];
-        header.push(headed(&parameter.name, &parameter.unit));
-    }
-    for output in &model.outputs {
-        match output.formulas.len() {
-            3 => {
-                header.extend(["x", "y", "z"].map(|c| headed(&format!("{}.{c}", output.name), &output.unit)))
-            }
-            _ => header.push(headed(&output.name, &output.unit)),
-        }
-    }
-    header.extend(["energy [J]", "error_estimate", "reason", "warnings"].map(str::to_owned));
+struct Table<'a> {
+    model: &'a Model,
+    axes: &'a [Axis],
+    /// Warnings about the mechanism, which are said once and stand in no row.
+    known: Vec<String>,
+}
 
-    let mut text = line(header);
-    // Debug prints the shortest text that reads back as the same number.
-    let cell = |value: Option<f64>| {
-        value.filter(|value| value.is_finite()).map_or_else(String::new, |value| format!("{value:?}"))
-    };
-    let common = common_warnings(samples);
-    for sample in samples {
+impl<'a> Table<'a> {
+    fn new(model: &'a Model, axes: &'a [Axis]) -> Self {
+        let known = flexura::check(model).map(|census| census.warnings).unwrap_or_default();
+        Self { model, axes, known }
+    }
+
+    fn header(&self) -> String {
+        let headed = |name: &str, unit: &str| {
+            if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") }
+        };
+        let mut header: Vec<String> =
+            self.axes.iter().map(|axis| headed(&axis.parameter, &axis.unit)).collect();
+        header.push("status".into());
+        for unknown in &self.model.unknowns {
+            let parameter = &self.model.parameters[unknown.parameter];
+            header.push(headed(&parameter.name, &parameter.unit));
+        }
+        for output in &self.model.outputs {
+            match output.formulas.len() {
+                3 => header
+                    .extend(["x", "y", "z"].map(|c| headed(&format!("{}.{c}", output.name), &output.unit))),
+                _ => header.push(headed(&output.name, &output.unit)),
+            }
+        }
+        header.extend(["energy [J]", "error_estimate", "reason", "warnings"].map(str::to_owned));
+        csv_line(&header)
+    }
+
+    fn row(&self, sample: &Sample) -> String {
+        // Debug prints the shortest text that reads back as the same number.
+        let cell = |value: Option<f64>| {
+            value.filter(|value| value.is_finite()).map_or_else(String::new, |value| format!("{value:?}"))
+        };
         let mut row: Vec<String> = sample.values.iter().map(|value| cell(Some(*value))).collect();
         row.push(sample.status.word().to_owned());
-        row.extend((0..model.unknowns.len()).map(|i| cell(sample.found.get(i).copied())));
-        for (i, output) in model.outputs.iter().enumerate() {
+        row.extend((0..self.model.unknowns.len()).map(|i| cell(sample.found.get(i).copied())));
+        for (i, output) in self.model.outputs.iter().enumerate() {
             let value = sample.outputs.get(i).and_then(Option::as_ref).map(|result| result.value);
             match value {
                 Some(OutputValue::Number(value)) => row.push(cell(Some(value))),
@@ -146,38 +241,19 @@ fn csv(model: &Model, axes: &[Axis], samples: &[Sample]) -> String {
             }
         }
         row.extend([cell(sample.energy), cell(sample.error_estimate)]);
-        row.push(sample.reason.clone().unwrap_or_default());
-        row.push(own_warnings(sample, &common).join("; "));
-        text += &line(row);
+        let reasons: Vec<&str> = match &sample.reason {
+            Some(reason) if sample.output_reasons.is_empty() => vec![reason],
+            _ => sample.output_reasons.iter().map(|(_, reason)| reason.as_str()).collect(),
+        };
+        row.push(reasons.join("; "));
+        row.push(self.own_warnings(sample).join("; "));
+        csv_line(&row)
     }
-    text
-}
 
-/// Warnings that every sample has: they are about the mechanism, and said once.
-fn common_warnings(samples: &[Sample]) -> Vec<&str> {
-    let first = samples.first().map_or(&[][..], |sample| &sample.warnings);
-    let everywhere = |warning: &String| samples.iter().all(|sample| sample.warnings.contains(warning));
-    if samples.len() < 2 {
-        return Vec::new();
+    /// The warnings that are a sample's own.
+    fn own_warnings<'s>(&self, sample: &'s Sample) -> Vec<&'s str> {
+        sample.warnings.iter().filter(|warning| !self.known.contains(warning)).map(String::as_str).collect()
     }
-    first.iter().filter(|warning| everywhere(warning)).map(String::as_str).collect()
-}
-
-/// The warnings that are a sample's own.
-fn own_warnings<'a>(sample: &'a Sample, common: &[&str]) -> Vec<&'a str> {
-    sample.warnings.iter().map(String::as_str).filter(|warning| !common.contains(warning)).collect()
-}
-
-/// Cells with commas between them, in quotes where they hold one.
-fn line(cells: Vec<String>) -> String {
-    let quoted = cells.into_iter().map(|cell| {
-        if cell.contains([',', '"', '\n', '\r']) {
-            format!("\"{}\"", cell.replace('"', "\"\""))
-        } else {
-            cell
-        }
-    });
-    quoted.collect::<Vec<_>>().join(",") + "\n"
 }
 
 #[derive(Serialize)]
@@ -200,49 +276,58 @@ struct SampleDocument<'a> {
     warnings: Vec<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     unknowns: Option<Named<f64>>,
-    outputs: Named<Value>,
+    outputs: Named<Option<Value>>,
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    output_reasons: Named<&'a str>,
     energy: Option<f64>,
     error_estimate: Option<f64>,
 }
 
 impl<'a> SweepDocument<'a> {
-    fn new(model: &'a Model, axes: &'a [Axis], samples: &'a [Sample]) -> Self {
-        let is_complete = samples.iter().all(|sample| sample.status.is_converged());
+    fn new(table: &'a Table<'a>, samples: &'a [Sample]) -> Self {
         let name = |axis: &Axis| axis.parameter.clone();
-        let common = common_warnings(samples);
-        let document = |sample: &'a Sample| SampleDocument {
-            parameters: Named(axes.iter().map(name).zip(sample.values.iter().copied()).collect()),
+        Self {
+            flexura: env!("CARGO_PKG_VERSION"),
+            model: &table.model.name,
+            study: "sweep",
+            status: match () {
+                () if samples.iter().any(is_interrupted) => "interrupted",
+                () if samples.iter().all(|sample| sample.status.is_converged()) => "converged",
+                () => "incomplete",
+            },
+            vary: Named(table.axes.iter().map(|axis| (name(axis), axis.values.as_slice())).collect()),
+            samples: samples.iter().map(|sample| SampleDocument::new(table, sample)).collect(),
+        }
+    }
+}
+
+impl<'a> SampleDocument<'a> {
+    fn new(table: &Table<'a>, sample: &'a Sample) -> Self {
+        let model = table.model;
+        let output_name = |position: usize| model.outputs[position].name.clone();
+        let value = |output: &OutputResult| match output.value {
+            OutputValue::Number(value) => Value::Number(value),
+            OutputValue::Vector(values) => Value::Vector(values),
+        };
+        let outputs = sample.outputs.iter().enumerate();
+        let names = table.axes.iter().map(|axis| axis.parameter.clone());
+        Self {
+            parameters: Named(names.zip(sample.values.iter().copied()).collect()),
             status: sample.status.word(),
             reason: sample.reason.as_deref(),
-            warnings: own_warnings(sample, &common),
+            warnings: table.own_warnings(sample),
             unknowns: (!sample.found.is_empty()).then(|| {
                 let names = model.unknowns.iter().map(|u| model.parameters[u.parameter].name.clone());
                 Named(names.zip(sample.found.iter().copied()).collect())
             }),
             outputs: Named(
-                sample
-                    .outputs
-                    .iter()
-                    .flatten()
-                    .map(|output| {
-                        let value = match output.value {
-                            OutputValue::Number(value) => Value::Number(value),
-                            OutputValue::Vector(values) => Value::Vector(values),
-                        };
-                        (output.name.clone(), value)
-                    })
-                    .collect(),
+                outputs.map(|(i, output)| (output_name(i), output.as_ref().map(value))).collect(),
+            ),
+            output_reasons: Named(
+                sample.output_reasons.iter().map(|(i, reason)| (output_name(*i), reason.as_str())).collect(),
             ),
             energy: sample.energy,
             error_estimate: sample.error_estimate,
-        };
-        Self {
-            flexura: env!("CARGO_PKG_VERSION"),
-            model: &model.name,
-            study: "sweep",
-            status: if is_complete { "converged" } else { "incomplete" },
-            vary: Named(axes.iter().map(|axis| (axis.parameter.clone(), axis.values.as_slice())).collect()),
-            samples: samples.iter().map(document).collect(),
         }
     }
 }

@@ -4,20 +4,26 @@ use super::{file_failure, study_failure};
 use crate::answer::{Answer, StudyDocument, Task, unwritable};
 use crate::arguments::TraceArguments;
 use crate::failure::Failure;
+use crate::files::{self, Growing};
 use crate::progress::TraceMeter;
 use crate::trace_summary;
-use flexura::model::{StudyKind, TraceStudy};
+use flexura::model::{Model, StudyKind, TraceStudy};
 use flexura::modelfile::{Document, Flag};
-use flexura::output::{OutputError, critical_csv, diagram_svg, path_csv, shapes_svg, trace_document};
-use flexura::solution::{Status, Trace};
-use flexura::{FileFamily, trace_view};
+use flexura::output::{
+    OutputError, critical_csv, diagram_svg, path_csv, path_header, path_row, shapes_svg, trace_document,
+};
+use flexura::solution::Trace;
+use flexura::{FileFamily, TraceProgress, trace_view};
+use std::path::Path;
 
 pub fn run(arguments: &TraceArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
     let file = file.with_study("trace", &flags(arguments)).map_err(|report| file_failure(&report))?;
     let task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
     match task.model.studies.last().map(|study| (&study.name, &study.kind)) {
-        Some((name, StudyKind::Trace(trace))) => task.deliver(study(&task, name, trace)?),
+        Some((name, StudyKind::Trace(trace))) => {
+            task.deliver(study(&task, name, trace, task.folder.as_deref())?)
+        }
         _ => Err(Failure::Machine(
             "the flags made no study; this is a bug in flexura, please report it".into(),
         )),
@@ -45,15 +51,31 @@ fn flags(arguments: &TraceArguments) -> Vec<Flag> {
     flags
 }
 
-/// A path of equilibria of a file's model.
-pub fn study(task: &Task<'_>, name: &str, study: &TraceStudy) -> Result<Answer, Failure> {
+/// A path of equilibria of a file's model; while it is followed its points stand in `path.csv.partial` of the folder.
+pub fn study(
+    task: &Task<'_>,
+    name: &str,
+    study: &TraceStudy,
+    folder: Option<&Path>,
+) -> Result<Answer, Failure> {
     let model = &task.model;
     let mut family = FileFamily::new(&task.file, task.overrides, model);
     let mut meter = TraceMeter::new(task.is_quiet, &model.parameters[study.parameter]);
-    let traced =
-        flexura::trace(model, &mut family, study, &task.options, &mut |progress| meter.update(progress));
+    let mut growing = folder.map(|folder| begin(folder, model, study)).transpose()?;
+    let traced = flexura::trace(model, &mut family, study, &task.options, &mut |progress| {
+        meter.update(&progress);
+        if let Some(growing) = &mut growing {
+            growing.add(&rows(model, study, &progress));
+        }
+    });
     meter.finish();
-    let trace = traced.map_err(|error| study_failure(&task.file, name, &error))?;
+    let trace = match traced {
+        Ok(trace) => trace,
+        Err(error) => {
+            growing.into_iter().for_each(Growing::finish);
+            return Err(study_failure(&task.file, name, &error));
+        }
+    };
 
     let refused = |error: OutputError| unwritable(failure(&trace), &error.to_string());
     let mut document = None;
@@ -61,7 +83,7 @@ pub fn study(task: &Task<'_>, name: &str, study: &TraceStudy) -> Result<Answer, 
     if task.wants_document() {
         let view = trace_view(model, study, &trace, &mut family);
         document = Some(StudyDocument::Trace(Box::new(trace_document(&view).map_err(refused)?)));
-        if task.folder.is_some() {
+        if folder.is_some() {
             files.push(("path.csv", path_csv(&view).map_err(refused)?));
             files.extend(critical_csv(&view).map_err(refused)?.map(|text| ("critical.csv", text)));
             files.push(("diagram.svg", diagram_svg(&view)));
@@ -72,18 +94,26 @@ pub fn study(task: &Task<'_>, name: &str, study: &TraceStudy) -> Result<Answer, 
         document,
         files,
         summary: trace_summary::render(model, study, &trace),
+        without_value: Vec::new(),
         warnings: trace.warnings.clone(),
         failure: failure(&trace),
+        growing,
     })
 }
 
+fn begin(folder: &Path, model: &Model, study: &TraceStudy) -> Result<Growing, Failure> {
+    files::make_folder(folder)?;
+    Growing::begin(&folder.join("path.csv"), &path_header(model, study))
+}
+
+/// The points that are new. One that holds a number which is none is told in the end.
+fn rows(model: &Model, study: &TraceStudy, progress: &TraceProgress<'_>) -> String {
+    let first = progress.points - progress.found.len();
+    let numbered = progress.found.iter().enumerate();
+    let rows = numbered.map(|(i, point)| path_row(model, study, [progress.branch, first + i], point));
+    rows.filter_map(Result::ok).collect()
+}
+
 fn failure(trace: &Trace) -> Option<Failure> {
-    if trace.status == Status::Converged {
-        return None;
-    }
-    let word = trace.status.word().replace('_', " ");
-    Some(Failure::NotConverged(match &trace.reason {
-        Some(reason) => format!("not converged, {word}: {reason}"),
-        None => format!("not converged, {word}"),
-    }))
+    Failure::of(trace.status, trace.reason.as_deref())
 }

@@ -4,7 +4,9 @@ use super::MotionView;
 use super::wire::{
     BodySeries, CableSeries, InverseDynamicsDocument, JointSeries, MotionWorkDocument, Series, SpringSeries,
 };
-use crate::document::{finite, finite_list, finite_vectors, parameters, section_quaternions};
+use crate::document::{
+    finite, finite_list, finite_vectors, parameters, reasons_by_name, section_quaternions,
+};
 use crate::{Named, OutputError};
 use flexura_model::Output;
 use flexura_solution::{BodyMotion, Instant, JointMotion, JointSolution};
@@ -35,6 +37,10 @@ pub fn motion_document(view: &MotionView<'_>) -> Result<InverseDynamicsDocument,
         outputs: Named::collect(model.outputs.iter().enumerate(), |(i, output)| {
             Ok((output.name.clone(), output_series(instants, i, output)?))
         })?,
+        output_reasons: reasons_by_name(
+            model,
+            instants.iter().flat_map(|instant| &instant.output_reasons),
+        ),
         bodies: Named::collect(model.bodies.iter().enumerate(), |(i, body)| {
             Ok((body.name.clone(), body_series(instants, i, &format!("bodies.{}", body.name))?))
         })?,

@@ -2,7 +2,7 @@
 
 use super::{MotionView, per_second};
 use crate::OutputError;
-use crate::trace::{cell, headed, line, output_headings};
+use crate::trace::{cell, headed, line, output_headings, reasons};
 use flexura_model::CoordinateKind;
 
 /// The table of a motion: the parameter, the outputs, coordinates, velocities and efforts of joints, and powers.
@@ -26,7 +26,7 @@ pub fn motion_csv(view: &MotionView<'_>) -> Result<String, OutputError> {
         header.push(headed(&format!("{name}.velocity"), &per_second(unit, 1)));
         header.push(headed(&format!("{name}.effort"), effort));
     }
-    header.extend([headed("drive_power", "W"), headed("kinetic_energy", "J")]);
+    header.extend([headed("drive_power", "W"), headed("kinetic_energy", "J"), "reason".to_owned()]);
     let mut text = line(header);
     for (t, instant) in view.motion.instants.iter().enumerate() {
         let field = |name: &str| format!("{name}[{t}]");
@@ -55,6 +55,7 @@ pub fn motion_csv(view: &MotionView<'_>) -> Result<String, OutputError> {
         }
         row.push(cell(instant.drive_power, || field("drive_power"))?);
         row.push(cell(instant.kinetic_energy, || field("kinetic_energy"))?);
+        row.push(reasons(&instant.output_reasons));
         text += &line(row);
     }
     Ok(text)

@@ -35,6 +35,9 @@ pub struct InverseDynamicsDocument {
     pub acceleration: Vec<f64>,
     /// The outputs; null at times at which one has no value.
     pub outputs: Named<Series>,
+    /// Why such an output has no value, the first time.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub output_reasons: Named<String>,
     /// The bodies' poses and motions.
     pub bodies: Named<BodySeries>,
     /// The joints' states and motions.

@@ -122,8 +122,9 @@ impl Axis {
             (0.5 * (low + high) - half, 0.5 * (low + high) + half)
         };
         let shown = Shown::of(low.abs().max(high.abs()), unit);
+        let name = super::shortened(name, super::LONG_NAME);
         let label = match shown.unit.as_str() {
-            "" => name.to_owned(),
+            "" => name,
             unit => format!("{name} / {unit}"),
         };
         let step = nice_step((high - low) * shown.factor * distance / length);

@@ -1,5 +1,6 @@
 //! SVG text, piece by piece. Coordinates are pixels, y downwards.
 
+use flexura_model::visible;
 use std::borrow::Cow;
 use std::fmt::Write;
 
@@ -147,16 +148,15 @@ impl Canvas {
     }
 }
 
-/// Text as XML wants it; control characters, which XML cannot hold, are left out.
+/// Text as XML wants it; what cannot be seen, some of which XML cannot hold, is written out.
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
+    for character in visible(text).chars() {
         match character {
             '&' => escaped.push_str("&amp;"),
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
-            character if character.is_control() => {}
             character => escaped.push(character),
         }
     }

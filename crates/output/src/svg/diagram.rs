@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::canvas::{Canvas, Style};
 use super::curve::{Station, Verdict, from_the_left, smooth};
 use super::series::{Series, series};
-use super::{COLOURS, INK, shortened};
+use super::{COLOURS, INK, LONG_NAME, shortened};
 use crate::trace::TraceView;
 use flexura_model::Model;
 use flexura_solution::{Branch, BranchEnd, BranchOrigin, PointKind, Trace};
@@ -35,7 +35,7 @@ pub fn diagram_svg(view: &TraceView<'_>) -> String {
     let mut canvas = Canvas::new(width, height);
 
     canvas.heading([LEFT, 26.0], &shortened(title(view.model), ((width - LEFT) / 9.5) as usize), 16.0);
-    canvas.text([LEFT, 44.0], &subtitle(view, more), "start", 11.0, "#666666");
+    super::subtitle(&mut canvas, LEFT, view.trace.status, &subtitle(view, more));
     for (entry, (line, x)) in entries.iter().zip(&places) {
         draw_entry(&mut canvas, [*x, 66.0 + LEGEND_LINE * *line as f64], entry);
     }
@@ -55,7 +55,7 @@ fn subtitle(view: &TraceView<'_>, more: usize) -> String {
     let points = branches.iter().map(|branch| branch.points.len()).sum::<usize>();
     let mut text = format!(
         "equilibria as {} changes; {}, {}",
-        view.parameter().0,
+        shortened(view.parameter().0, LONG_NAME),
         counted(branches.len(), "branch", "branches"),
         counted(points, "point", "points")
     );
@@ -151,7 +151,7 @@ fn draw_branch(canvas: &mut Canvas, branch: &Branch, stations: &[Option<Station>
 }
 
 fn is_broken_off(end: &BranchEnd) -> bool {
-    matches!(end, BranchEnd::Stalled(_) | BranchEnd::PointLimit)
+    matches!(end, BranchEnd::Stalled(_) | BranchEnd::PointLimit | BranchEnd::Interrupted)
 }
 
 /// The symbol of a special point.

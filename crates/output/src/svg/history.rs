@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::canvas::{Canvas, Style};
 use super::diagram::{draw_axes, title};
-use super::{COLOURS, INK, shortened};
+use super::{COLOURS, INK, LONG_NAME, shortened};
 use crate::motion::{MotionView, per_second};
 use flexura_model::Drive;
 use flexura_solution::Instant;
@@ -47,11 +47,11 @@ pub fn motion_svg(view: &MotionView<'_>) -> String {
     let height = top + (0..rows).map(|row| room(row) + FRAME[1] + BELOW).sum::<f64>();
     let mut canvas = Canvas::new(width, height);
     canvas.heading([LEFT, 26.0], &shortened(title(view.model), ((width - LEFT) / 9.5) as usize), 16.0);
-    let mut subtitle = format!("moved by {} in time", view.parameter().0);
+    let mut subtitle = format!("moved by {} in time", shortened(view.parameter().0, LONG_NAME));
     if more > 0 {
         subtitle += &format!("; {more} more {} not shown", if more == 1 { "curve" } else { "curves" });
     }
-    canvas.text([LEFT, 44.0], &subtitle, "start", 11.0, "#666666");
+    super::subtitle(&mut canvas, LEFT, view.motion.status, &subtitle);
     let mut y = top;
     for row in 0..rows {
         y += room(row);
@@ -87,7 +87,7 @@ fn panels(view: &MotionView<'_>) -> (Vec<Panel>, usize) {
         if values.iter().all(Option::is_none) {
             return;
         }
-        let curve = Curve { name, values };
+        let curve = Curve { name: shortened(&name, LONG_NAME), values };
         match panels.iter_mut().skip(first).find(|panel| panel.unit == unit) {
             Some(panel) => panel.curves.push(curve),
             None => panels.push(Panel { unit: unit.to_owned(), curves: vec![curve] }),

@@ -181,7 +181,8 @@ pub fn body(
     if !is_covered {
         diamond(canvas, now, true);
     }
-    let width = 6.2 * body.name.chars().count() as f64;
+    let name = super::shortened(&body.name, super::BODY_NAME);
+    let width = 6.2 * name.chars().count() as f64;
     let is_near_the_edge = now[0] + 9.0 + width > panel.frame[0] + panel.frame[2];
     let (anchor, x) = if is_near_the_edge { ("end", now[0] - 6.0) } else { ("start", now[0] + 6.0) };
     // Labels of bodies that lie behind each other go one above the other.
@@ -191,7 +192,7 @@ pub fn body(
         label[1] -= 12.0;
     }
     labels.push(label);
-    canvas.text(label, &body.name, anchor, 11.0, INK);
+    canvas.text(label, &name, anchor, 11.0, INK);
 }
 
 /// The marker of a body.

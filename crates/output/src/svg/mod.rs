@@ -38,6 +38,9 @@ const FAINT: &str = "#9a9a9a";
 const LOAD: &str = "#b2182b";
 const CABLE: &str = "#7b3294";
 const FOUNDATION: &str = "#ece0c8";
+/// Characters of names at axes and curves, and beside bodies.
+const LONG_NAME: usize = 44;
+const BODY_NAME: usize = 24;
 /// Width of the band that stands for a foundation, px.
 const BAND: f64 = 14.0;
 /// Beams that the legend names one by one.
@@ -55,15 +58,9 @@ pub fn shape_svg(model: &Model, solution: &Solution) -> String {
     canvas.heading([sheet.left, 26.0], &shortened(title, room as usize), 16.0);
     let state = match solution.status {
         Status::Converged => "in equilibrium".to_owned(),
-        status => {
-            format!(
-                "{}, {:.3} % of the load",
-                status.word().replace('_', " "),
-                100.0 * solution.load_fraction
-            )
-        }
+        _ => format!("{:.3} % of the load", 100.0 * solution.load_fraction),
     };
-    canvas.text([sheet.left, 44.0], &format!("{state}; displacements to scale"), "start", 11.0, "#666666");
+    subtitle(&mut canvas, sheet.left, solution.status, &format!("{state}; displacements to scale"));
 
     for panel in &sheet.panels {
         draw_axes(&mut canvas, &sheet, panel);
@@ -71,6 +68,15 @@ pub fn shape_svg(model: &Model, solution: &Solution) -> String {
     }
     draw_legend(&mut canvas, sheet.legend, &entries);
     canvas.finish()
+}
+
+/// The line below the title. A picture of what did not converge says so first, and in the colour of warnings.
+fn subtitle(canvas: &mut Canvas, left: f64, status: Status, text: &str) {
+    let (text, colour) = match status {
+        Status::Converged => (text.to_owned(), "#666666"),
+        status => (format!("not converged, {}; {text}", status.word().replace('_', " ")), LOAD),
+    };
+    canvas.text([left, 44.0], &text, "start", 11.0, colour);
 }
 
 fn draw_axes(canvas: &mut Canvas, sheet: &Sheet, panel: &Panel) {
@@ -240,6 +246,7 @@ fn draw_legend(canvas: &mut Canvas, origin: [f64; 2], entries: &[Entry]) {
     }
 }
 
+/// A name of at most that many characters.
 fn shortened(name: &str, longest: usize) -> String {
     if name.chars().count() <= longest {
         name.to_owned()

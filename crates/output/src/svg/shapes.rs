@@ -5,10 +5,10 @@ use super::canvas::{Canvas, Style};
 use super::diagram::{Mark, title};
 use super::layout::{LEGEND_LINE, Panel, Sheet};
 use super::scene::{Knot, Scene};
-use super::{COLOURS, FAINT, INK, draw_axes, marks, pieces, shortened};
+use super::{COLOURS, FAINT, INK, LONG_NAME, draw_axes, marks, pieces, shortened, subtitle};
 use crate::trace::{TraceView, parameter_of};
 use flexura_model::Model;
-use flexura_solution::{Buckling, Direction, Solution};
+use flexura_solution::{Buckling, Direction, Solution, Status};
 use flexura_spatial::{Pose, Twist, Vector3, exp};
 
 /// Shapes between the special ones that are drawn at most.
@@ -55,7 +55,9 @@ pub fn shapes_svg(view: &TraceView<'_>) -> String {
     let bounds = joined(states.iter().map(|state| &state.scene));
     let sheet = sheet(bounds, BAR + 40.0 + LEGEND_LINE * entries.len() as f64);
     let mut canvas = Canvas::new(sheet.width, sheet.height);
-    head(&mut canvas, &sheet, view.model, &format!("shapes as {name} changes; displacements to scale"));
+    let shown = shortened(name, LONG_NAME);
+    let text = format!("shapes as {shown} changes; displacements to scale");
+    head(&mut canvas, &sheet, view.model, view.trace.status, &text);
 
     let colour = |value: f64| {
         let [low, high] = ends;
@@ -138,10 +140,11 @@ pub fn modes_svg(model: &Model, buckling: &Buckling) -> String {
     let sheet = sheet(bounds, LEGEND_LINE * (entries.len() + 1) as f64);
     let mut canvas = Canvas::new(sheet.width, sheet.height);
     let what = match buckling.parameter {
-        Some(_) => format!("critical values of {name}"),
+        Some(_) => format!("critical values of {}", shortened(name, LONG_NAME)),
         None => "critical fractions of the load".to_owned(),
     };
-    head(&mut canvas, &sheet, model, &format!("{what}; displacements not to scale"));
+    let text = format!("{what}; displacements not to scale");
+    head(&mut canvas, &sheet, model, buckling.solution.status, &text);
     for panel in &sheet.panels {
         draw_axes(&mut canvas, &sheet, panel);
         draw_state(&mut canvas, panel, &base, FAINT, 3.0, "");
@@ -197,10 +200,10 @@ fn sheet(bounds: [Vector3<f64>; 2], legend_height: f64) -> Sheet {
     }
 }
 
-fn head(canvas: &mut Canvas, sheet: &Sheet, model: &Model, subtitle: &str) {
+fn head(canvas: &mut Canvas, sheet: &Sheet, model: &Model, status: Status, text: &str) {
     let room = (sheet.width - sheet.left) / 9.5;
     canvas.heading([sheet.left, 26.0], &shortened(title(model), room as usize), 16.0);
-    canvas.text([sheet.left, 44.0], subtitle, "start", 11.0, "#666666");
+    subtitle(canvas, sheet.left, status, text);
 }
 
 fn draw_rest(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {

@@ -5,7 +5,10 @@ use super::wire::{
     PointDocument, ShapeDocument, TraceDocument, TraceWorkDocument,
 };
 use super::{TraceView, parameter_of};
-use crate::document::{all_finite, error_estimate, finite, outputs, parameters, state_document, work};
+use crate::document::{
+    all_finite, error_estimate, finite, output_reasons, outputs, parameters, reasons_by_name, state_document,
+    work,
+};
 use crate::wire::Value;
 use crate::{Named, OutputError};
 use flexura_model::Model;
@@ -103,8 +106,7 @@ fn point_document(
     let within = |error| inside(path, error);
     let estimated = view.trace.status == Status::Converged || point.error_estimate.is_finite();
     let state = point.solution.as_ref().map(|solution| {
-        let (evaluation, _) = evaluate_each(model, solution);
-        state_document(model, solution, &evaluation)
+        state_document(model, solution, &evaluate_each(model, solution))
     });
     let directions = point.directions.iter().map(|direction| shape_document(model, direction));
     Ok(PointDocument {
@@ -118,6 +120,7 @@ fn point_document(
             _ => None,
         },
         outputs: point_outputs(view, path, point)?,
+        output_reasons: reasons_by_name(view.model, point.output_reasons.iter()),
         stable: point.stable,
         unstable_directions: point.unstable_directions,
         error_estimate: estimated
@@ -128,14 +131,17 @@ fn point_document(
     })
 }
 
-fn point_outputs(view: &TraceView<'_>, path: &str, point: &TracePoint) -> Result<Named<Value>, OutputError> {
-    let known = view.model.outputs.iter().zip(&point.outputs);
-    let known = known.filter_map(|(output, values)| Some((output, values.as_ref()?)));
-    Named::collect(known, |(output, values)| {
+fn point_outputs(
+    view: &TraceView<'_>,
+    path: &str,
+    point: &TracePoint,
+) -> Result<Named<Option<Value>>, OutputError> {
+    Named::collect(view.model.outputs.iter().zip(&point.outputs), |(output, values)| {
         let field = || format!("{path}.outputs.{}", output.name);
-        let value = match values[..] {
-            [x, y, z] => Value::Vector(all_finite([x, y, z], field)?),
-            _ => Value::Number(finite(values.first().copied().unwrap_or(f64::NAN), field)?),
+        let value = match values.as_deref() {
+            Some([x, y, z]) => Some(Value::Vector(all_finite([*x, *y, *z], field)?)),
+            Some([number, ..]) => Some(Value::Number(finite(*number, field)?)),
+            _ => None,
         };
         Ok((output.name.clone(), value))
     })
@@ -198,7 +204,8 @@ pub fn buckling_document(
         residual: finite(solution.residual, || "residual".into())?,
         error_estimate: error_estimate(solution)?,
         parameters: parameters(model)?,
-        outputs: outputs(evaluation)?,
+        outputs: outputs(model, evaluation)?,
+        output_reasons: output_reasons(evaluation),
         state: state_document(model, solution, evaluation)?,
         stable: solution.stable,
         unstable_directions: solution.unstable_directions,

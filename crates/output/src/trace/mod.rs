@@ -5,8 +5,8 @@ mod table;
 mod wire;
 
 pub use document::{buckling_document, trace_document};
-pub(crate) use table::{cell, headed, line, output_headings};
-pub use table::{critical_csv, modes_csv, path_csv};
+pub(crate) use table::{cell, headed, line, output_headings, reasons};
+pub use table::{critical_csv, modes_csv, path_csv, path_header, path_row};
 pub use wire::{
     BranchDocument, BucklingDocument, CriticalDocument, ModeDocument, MotionDocument, MotionsDocument,
     PointDocument, ShapeDocument, TraceDocument, TraceWorkDocument,
@@ -73,8 +73,12 @@ impl<'a> TraceView<'a> {
 
     /// The text of an event, by its position.
     pub(crate) fn event(&self, position: usize) -> Option<&'a str> {
-        self.study.events.get(position).map(|event| event.output.name.as_str())
+        event_of(self.study, position)
     }
+}
+
+fn event_of(study: &TraceStudy, position: usize) -> Option<&str> {
+    study.events.get(position).map(|event| event.output.name.as_str())
 }
 
 /// Name and unit of a parameter; None is the fraction of the load.

@@ -1,10 +1,10 @@
 //! Tables of a trace and of buckling: a row for every point, and for every critical value. Branches and points are counted
 //! from 1.
 
-use super::{TraceView, parameter_of};
+use super::{TraceView, event_of, parameter_of};
 use crate::OutputError;
-use crate::csv::quoted;
-use flexura_model::Model;
+use crate::csv::csv_line;
+use flexura_model::{Model, TraceStudy};
 use flexura_solution::{Buckling, PointKind, Status, TracePoint};
 
 /// `path.csv`: every point of every branch.
@@ -12,22 +12,53 @@ use flexura_solution::{Buckling, PointKind, Status, TracePoint};
 /// # Errors
 /// [`OutputError::NotFinite`] names the first number that is NaN or infinite.
 pub fn path_csv(view: &TraceView<'_>) -> Result<String, OutputError> {
-    let (name, unit) = view.parameter();
-    let mut header: Vec<String> = ["branch", "point", "kind"].map(str::to_owned).to_vec();
-    header.push(headed(name, unit));
-    header.extend(output_headings(view.model));
-    header.extend(LAST.map(str::to_owned));
-    let mut text = line(header);
+    let mut text = path_header(view.model, view.study);
     for (b, branch) in view.trace.branches.iter().enumerate() {
         for (p, point) in branch.points.iter().enumerate() {
-            let path = format!("branches[{b}].points[{p}]");
-            let mut row = vec![(b + 1).to_string(), (p + 1).to_string(), point.kind.word().to_owned()];
-            row.push(cell(point.parameter, || format!("{path}.parameter"))?);
-            row.extend(rest_of_row(view, &path, point)?);
-            text += &line(row);
+            estimated(view, point, || format!("branches[{b}].points[{p}]"))?;
+            text += &path_row(view.model, view.study, [b, p], point)?;
         }
     }
     Ok(text)
+}
+
+/// The first line of `path.csv`.
+pub fn path_header(model: &Model, study: &TraceStudy) -> String {
+    let (name, unit) = parameter_of(model, Some(study.parameter));
+    let mut header: Vec<String> = ["branch", "point", "kind"].map(str::to_owned).to_vec();
+    header.push(headed(name, unit));
+    header.extend(output_headings(model));
+    header.extend(LAST.map(str::to_owned));
+    line(header)
+}
+
+/// A line of `path.csv`: of the point with these numbers of its branch and in its branch, from 0.
+///
+/// # Errors
+/// As [`path_csv`].
+pub fn path_row(
+    model: &Model,
+    study: &TraceStudy,
+    [b, p]: [usize; 2],
+    point: &TracePoint,
+) -> Result<String, OutputError> {
+    let path = format!("branches[{b}].points[{p}]");
+    let mut row = vec![(b + 1).to_string(), (p + 1).to_string(), point.kind.word().to_owned()];
+    row.push(cell(point.parameter, || format!("{path}.parameter"))?);
+    row.extend(rest_of_row(model, study, &path, point)?);
+    Ok(line(row))
+}
+
+/// A path that converged has an error at every point.
+fn estimated(
+    view: &TraceView<'_>,
+    point: &TracePoint,
+    path: impl Fn() -> String,
+) -> Result<(), OutputError> {
+    if view.trace.status == Status::Converged {
+        cell(point.error_estimate, || format!("{}.error_estimate", path()))?;
+    }
+    Ok(())
 }
 
 /// `critical.csv`: every point of the critical curve; None where none was followed.
@@ -47,7 +78,8 @@ pub fn critical_csv(view: &TraceView<'_>) -> Result<Option<String>, OutputError>
         let mut row = vec![(p + 1).to_string()];
         row.push(cell(*value, || format!("{path}.second_parameter"))?);
         row.push(cell(point.parameter, || format!("{path}.parameter"))?);
-        row.extend(rest_of_row(view, &path, point)?);
+        estimated(view, point, || path.clone())?;
+        row.extend(rest_of_row(view.model, view.study, &path, point)?);
         text += &line(row);
     }
     Ok(Some(text))
@@ -71,11 +103,16 @@ pub fn modes_csv(model: &Model, buckling: &Buckling) -> Result<String, OutputErr
 }
 
 /// What stands behind the outputs.
-const LAST: [&str; 5] = ["stable", "unstable_directions", "arc", "error_estimate", "detail"];
+const LAST: [&str; 6] = ["stable", "unstable_directions", "arc", "error_estimate", "detail", "reason"];
 
-fn rest_of_row(view: &TraceView<'_>, path: &str, point: &TracePoint) -> Result<Vec<String>, OutputError> {
+fn rest_of_row(
+    model: &Model,
+    study: &TraceStudy,
+    path: &str,
+    point: &TracePoint,
+) -> Result<Vec<String>, OutputError> {
     let mut row = Vec::new();
-    for (i, output) in view.model.outputs.iter().enumerate() {
+    for (i, output) in model.outputs.iter().enumerate() {
         let values = point.outputs.get(i).and_then(Option::as_ref);
         for component in 0..output.formulas.len() {
             row.push(match values.and_then(|values| values.get(component)) {
@@ -87,17 +124,23 @@ fn rest_of_row(view: &TraceView<'_>, path: &str, point: &TracePoint) -> Result<V
     row.push(point.stable.map_or_else(String::new, |stable| stable.to_string()));
     row.push(point.unstable_directions.map_or_else(String::new, |count| count.to_string()));
     row.push(cell(point.arc, || format!("{path}.arc"))?);
-    row.push(if view.trace.status == Status::Converged || point.error_estimate.is_finite() {
+    row.push(if point.error_estimate.is_finite() {
         cell(point.error_estimate, || format!("{path}.error_estimate"))?
     } else {
         String::new()
     });
     row.push(match point.kind {
         PointKind::Branch(crossing) => crossing.word().to_owned(),
-        PointKind::Event(position) => view.event(position).unwrap_or_default().to_owned(),
+        PointKind::Event(position) => event_of(study, position).unwrap_or_default().to_owned(),
         _ => String::new(),
     });
+    row.push(reasons(&point.output_reasons));
     Ok(row)
+}
+
+/// Why cells of outputs are empty.
+pub(crate) fn reasons(reasons: &[(usize, String)]) -> String {
+    reasons.iter().map(|(_, reason)| reason.as_str()).collect::<Vec<_>>().join("; ")
 }
 
 pub(crate) fn output_headings(model: &Model) -> Vec<String> {
@@ -125,5 +168,5 @@ pub(crate) fn cell(value: f64, field: impl FnOnce() -> String) -> Result<String,
 }
 
 pub(crate) fn line(cells: Vec<String>) -> String {
-    cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n"
+    csv_line(&cells)
 }

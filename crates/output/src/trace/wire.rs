@@ -49,8 +49,8 @@ pub struct BranchDocument {
     /// Position of that point in its branch.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub from_point: Option<usize>,
-    /// Why it ends where it does, at its first and at its last point: "start", "range", "stop", "closed", "point_limit" or
-    /// "stalled".
+    /// Why it ends where it does, at its first and at its last point: "start", "range", "stop", "closed", "point_limit",
+    /// "stalled" or "interrupted".
     pub ends: [&'static str; 2],
     /// Of an end that is "stalled": why it cannot be followed further.
     #[serde(skip_serializing_if = "is_nothing")]
@@ -82,8 +82,11 @@ pub struct PointDocument {
     /// Of an event: what was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub event: Option<String>,
-    /// The outputs; those without a value are left out.
-    pub outputs: Named<Value>,
+    /// The outputs; null where one has no value.
+    pub outputs: Named<Option<Value>>,
+    /// Why those outputs have none.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub output_reasons: Named<String>,
     /// Null where it is not decided, as at a fold or branch point itself.
     pub stable: Option<bool>,
     /// Null where it is not decided.
@@ -190,8 +193,11 @@ pub struct BucklingDocument {
     pub error_estimate: Option<f64>,
     /// The parameters at the equilibrium.
     pub parameters: Named<f64>,
-    /// The outputs at the equilibrium.
-    pub outputs: Named<Value>,
+    /// The outputs at the equilibrium; null where one has no value.
+    pub outputs: Named<Option<Value>>,
+    /// Why those outputs have none.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub output_reasons: Named<String>,
     /// The equilibrium.
     #[serde(flatten)]
     pub state: StateDocument,

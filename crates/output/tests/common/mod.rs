@@ -339,7 +339,9 @@ pub fn rich() -> (Model, Solution) {
         unknowns: Vec::new(),
         left_out: Vec::new(),
         parameters: vec![0, 1],
-        outputs: vec![vec![vec![-0.1, 0.02]], vec![vec![0.05, 0.0], vec![0.0, 0.0], vec![-0.1, 0.02]]],
+        outputs: [&[[-0.1, 0.02]][..], &[[0.05, 0.0], [0.0, 0.0], [-0.1, 0.02]]]
+            .map(|output| output.iter().map(|by| by.map(Some).to_vec()).collect())
+            .to_vec(),
         bodies: vec![vec![motion; 2]; 8],
     });
     solution.found = vec![(1, 3.2)];

@@ -158,6 +158,9 @@ pub fn direction() -> Direction {
     Direction { beams: vec![(0..SAMPLES).map(twist).collect()], bodies: vec![still] }
 }
 
+/// Why an output has no value where the strip is straight.
+pub const NO_VALUE: &str = "output `ratio` is NaN, not a finite number";
+
 pub fn point(parameter: f64, w: f64, arc: f64, kind: PointKind, unstable: Option<usize>) -> TracePoint {
     let solution = state(w);
     let middle = solution.beams[0].samples[SAMPLES / 2].pose.position;
@@ -172,6 +175,7 @@ pub fn point(parameter: f64, w: f64, arc: f64, kind: PointKind, unstable: Option
             Some(vec![middle.x, 0.0, middle.z]),
             (w != 0.0).then(|| vec![middle.z / LENGTH]),
         ],
+        output_reasons: if w == 0.0 { vec![(3, NO_VALUE.into())] } else { Vec::new() },
         error_estimate: 3e-10,
         stable: unstable.map(|count| count == 0),
         unstable_directions: unstable,

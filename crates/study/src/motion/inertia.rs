@@ -6,7 +6,6 @@ use super::walk::{Rates, Walker};
 use crate::ProblemError;
 use flexura_model::{Drive, InverseDynamicsStudy, LoadId, Model};
 use flexura_nonlinear::System;
-use flexura_post::OutputValue;
 use flexura_solution::{BodyMotion, Instant, JointMotion, Rates as Motion};
 use flexura_spatial::{Twist, Vector3, Wrench};
 
@@ -104,19 +103,8 @@ pub(super) fn balanced(
     walker.prepared.add_tangents(&mut state, &[]);
     let model = walker.prepared.problem.model();
     let mut warnings = state.warnings.clone();
-    let mut outputs = Vec::with_capacity(model.outputs.len());
-    for result in flexura_post::each_output(model, &state) {
-        outputs.push(match result {
-            Ok(result) => Some(match result.value {
-                OutputValue::Number(number) => vec![number],
-                OutputValue::Vector(vector) => vector.to_vec(),
-            }),
-            Err(error) => {
-                warnings.push(error.to_string());
-                None
-            }
-        });
-    }
+    let values = flexura_post::output_values(model, &state);
+    warnings.extend(values.reasons.iter().map(|(_, reason)| reason.clone()));
     let joints = state.rates.as_ref().map_or(&[][..], |rates| &rates.joints);
     let mut drive_power = 0.0;
     for (j, joint) in model.joints.iter().enumerate() {
@@ -137,7 +125,8 @@ pub(super) fn balanced(
         value,
         rate,
         acceleration,
-        outputs,
+        outputs: values.outputs,
+        output_reasons: values.reasons,
         state,
         drive_power,
         gravity_power,

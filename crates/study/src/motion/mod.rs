@@ -66,8 +66,13 @@ pub fn inverse_dynamics(
         work: MotionWork::default(),
     };
     let mut walker = Walker::new(family, study.parameter, start, reach)?;
+    walker.prepared.heed(&options.interrupt);
     let outcome = walker.prepared.solve(options.tolerance, &mut |_| {});
     result.warnings = walker.problem().warnings().to_vec();
+    if outcome.status == Status::Interrupted {
+        (result.status, result.reason) = (outcome.status, outcome.reason);
+        return Ok(result);
+    }
     if outcome.status != Status::Converged {
         result.status = outcome.status;
         result.reason = outcome.reason.map(|reason| format!("the motion cannot begin: {reason}"));
@@ -84,6 +89,8 @@ pub fn inverse_dynamics(
         };
         let here = match arrived {
             Ok(here) => here,
+            // What a step makes of the end is told below.
+            Err(_) if options.interrupt.is_raised() => break,
             Err(Halt::Model(error)) => return Err(error),
             Err(halt) => {
                 let (status, reason) = halted(model, study, moment.time, &halt);
@@ -95,6 +102,9 @@ pub fn inverse_dynamics(
         moved = moved.max(walker.problem().motion_size(&here.steps[1]) * reach * reach);
         result.error_estimate = result.error_estimate.max(here.error);
         let balanced = inertia::balanced(&mut walker, &here, moment, model, study)?;
+        if options.interrupt.is_raised() {
+            break;
+        }
         if let Some(reason) = balanced.inconsistent {
             result.status = Status::Inconsistent;
             result.reason = Some(format!("at t = {} s {reason}", told(moment.time)));
@@ -108,6 +118,12 @@ pub fn inverse_dynamics(
         result.instants.push(balanced.instant);
         rates = Some(here);
         progress(MotionProgress { done: done + 1, of: moments.len(), time: moment.time });
+    }
+    if let Some(next) = moments.get(result.instants.len())
+        && options.interrupt.is_raised()
+    {
+        let reason = format!("interrupted before t = {} s", told(next.time));
+        (result.status, result.reason) = (Status::Interrupted, Some(reason));
     }
     let counts = walker.problem().counts();
     result.work = MotionWork {

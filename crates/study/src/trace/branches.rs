@@ -43,7 +43,7 @@ pub fn trace(
     family: &mut dyn Family,
     study: &TraceStudy,
     options: &Options,
-    progress: &mut dyn FnMut(TraceProgress),
+    progress: &mut dyn FnMut(TraceProgress<'_>),
 ) -> Result<Trace, ProblemError> {
     super::check_study(model, StudyKind::Trace(study.clone()))?;
     let span = study.range[1] - study.range[0];
@@ -58,6 +58,7 @@ pub fn trace(
     let reader = Reader { watched, samples };
     let start = family.model(&[(study.parameter, study.start)])?;
     let mut prepared = Prepared::new(&start)?;
+    prepared.heed(&options.interrupt);
     prepared.problem.watch(reader.places());
     let outcome = prepared.solve(options.tolerance, &mut |_| {});
     let mut follower = Follower {
@@ -67,6 +68,8 @@ pub fn trace(
         tolerance: options.tolerance,
         progress,
         branch: 0,
+        told: 0,
+        interrupt: options.interrupt.clone(),
         missed: Default::default(),
     };
     let unit = match model.parameters[study.parameter].unit.as_str() {
@@ -120,13 +123,17 @@ pub fn trace(
         ..collection.work
     };
     trace.branches = collection.branches;
-    if follower.missed.get() > 0 {
+    if follower.missed.get() > 0 && !options.interrupt.is_raised() {
         trace.warnings.push(format!(
             "{} events or stops were passed but could not be placed; take more steps",
             follower.missed.get()
         ));
     }
     (trace.status, trace.reason) = verdict(&trace);
+    if options.interrupt.is_raised() && trace.status != Status::Interrupted {
+        // Between two branches, or in what is done beside them.
+        (trace.status, trace.reason) = (Status::Interrupted, Some("interrupted".to_string()));
+    }
     if study.critical.is_some() && trace.critical.is_none() && trace.status == Status::Converged {
         (trace.status, trace.reason) = (
             Status::Stalled,
@@ -177,10 +184,10 @@ pub(crate) fn from_here(
             Err(refusal) => Leg {
                 points: Vec::new(),
                 met: Vec::new(),
-                end: BranchEnd::Stalled(match refusal {
+                end: follower.ended(BranchEnd::Stalled(match refusal {
                     Refusal::Parameter(why) => why,
                     Refusal::Broken(_) => "the tangent has no inverse at its start".to_string(),
-                }),
+                })),
                 refused: 0,
             },
         });
@@ -314,7 +321,7 @@ fn switch(traced: &mut Traced<'_>, follower: &mut Follower<'_>, most: usize, col
         if collection.known[position].done {
             continue;
         }
-        if switched(collection) >= most {
+        if switched(collection) >= most || follower.interrupt.is_raised() {
             return;
         }
         collection.known[position].done = true;
@@ -342,7 +349,7 @@ fn switch(traced: &mut Traced<'_>, follower: &mut Follower<'_>, most: usize, col
                     Err(stall) => Leg {
                         points: Vec::new(),
                         met: Vec::new(),
-                        end: super::leg::stalled(&stall),
+                        end: follower.ended(super::leg::stalled(&stall)),
                         refused: 0,
                     },
                 });
@@ -373,6 +380,9 @@ fn verdict(trace: &Trace) -> (Status, Option<String>) {
                         Status::Stalled,
                         Some(format!("branch {} cannot be followed further: {why}", i + 1)),
                     );
+                }
+                BranchEnd::Interrupted => {
+                    return (Status::Interrupted, Some(format!("interrupted on branch {}", i + 1)));
                 }
                 BranchEnd::PointLimit => {
                     return (

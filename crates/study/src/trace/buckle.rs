@@ -52,6 +52,7 @@ pub fn buckle(
         None => model.clone(),
     };
     let mut prepared = Prepared::new(&base)?;
+    prepared.heed(&options.interrupt);
     let outcome = match study.parameter {
         Some(_) => prepared.solve(options.tolerance, &mut |_| {}),
         None => prepared.part_of_load(study.at, options.tolerance)?,
@@ -115,10 +116,16 @@ pub fn buckle(
     let mut modes = Vec::new();
     let mut unsure = 0;
     for parts in PARTS {
-        let mut pencil = prepared.pencil(family, study, parts).map_err(|error| match error {
-            Failure::Breakdown(breakdown) => critical(breakdown),
-            Failure::Problem(error) => error,
-        })?;
+        let mut pencil = match prepared.pencil(family, study, parts) {
+            Ok(pencil) => pencil,
+            Err(_) if options.interrupt.is_raised() => {
+                let reason = "interrupted before the critical values were found".to_string();
+                (solution.status, solution.reason) = (Status::Interrupted, Some(reason));
+                return Ok(Buckling { parameter: study.parameter, at: study.at, solution, modes: Vec::new() });
+            }
+            Err(Failure::Breakdown(breakdown)) => return Err(critical(breakdown)),
+            Err(Failure::Problem(error)) => return Err(error),
+        };
         let size = pencil.base.size();
         let found = ritz::smallest(&mut |x| pencil.apply(x), size, 2 * wanted + 4);
         let beyond = found.iter().any(|(value, _)| *value > 0.0);
@@ -240,6 +247,9 @@ impl Prepared {
             self.problem.set_load(fraction * i as f64 / LOAD_STEPS as f64);
             self.problem.renew();
             if !matches!(converge(&mut self.problem, &newton), NewtonEnd::Converged { .. }) {
+                if self.problem.is_interrupted() {
+                    return Ok(self.interrupted(flexura_nonlinear::PathWork::default()));
+                }
                 return Err(ProblemError::new(
                     "study",
                     format!("finds no equilibrium under {fraction} of the load"),

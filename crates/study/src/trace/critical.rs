@@ -110,6 +110,7 @@ fn side(
             branch: follower.branch,
             points: points.len(),
             parameter: traced.axes[0].value(walker.point().parameters[0]),
+            found: &[],
         });
     }
     (points, BranchEnd::PointLimit)
@@ -128,7 +129,8 @@ fn report(
         parameter: traced.axes[0].value(first),
         arc: 0.0,
         kind: kind.clone(),
-        outputs: reading.outputs,
+        outputs: reading.values.outputs,
+        output_reasons: reading.values.reasons,
         error_estimate: follower.tolerance,
         stable: None,
         unstable_directions: None,

@@ -5,7 +5,7 @@ use super::problem::{Snapshot, Traced};
 use super::record::{Reader, Reading, crossing, regular};
 use flexura_continuation::{Advance, Place, Point, Special, Stall, Tangent, Walker, between, sharpen};
 use flexura_model::{Stop, TraceStudy};
-use flexura_nonlinear::System;
+use flexura_nonlinear::{Interrupt, System};
 use flexura_solution::{BranchEnd, PointKind, TracePoint};
 
 /// A branch point that was met, for later.
@@ -44,9 +44,13 @@ pub(crate) struct Follower<'s> {
     /// Number of watched quantities that are events; the others are stops.
     pub events: usize,
     pub tolerance: f64,
-    pub progress: &'s mut dyn FnMut(TraceProgress),
+    pub progress: &'s mut dyn FnMut(TraceProgress<'_>),
     /// Number of the branch, for progress.
     pub branch: usize,
+    /// Points of the leg that progress has told of.
+    pub told: usize,
+    /// Ends the trace once it is raised.
+    pub interrupt: Interrupt,
     /// Events and stops that were seen to be passed but could not be placed.
     pub missed: std::cell::Cell<usize>,
 }
@@ -83,9 +87,18 @@ impl Follower<'_> {
     /// Follows from the walker's present point, which is reported first.
     pub fn follow(&mut self, traced: &mut Traced<'_>, walker: &mut Walker, first: First) -> Leg {
         let mut leg = Leg { points: Vec::new(), met: Vec::new(), end: BranchEnd::Range, refused: 0 };
+        self.told = 0;
         leg.end = self.walk(traced, walker, first, &mut leg);
+        leg.end = self.ended(leg.end);
+        self.tell(&leg);
         leg.refused = walker.work().refused;
         leg
+    }
+
+    /// Where somebody asked for the end no step succeeds; that is no standstill.
+    pub fn ended(&self, end: BranchEnd) -> BranchEnd {
+        let is_interrupted = self.interrupt.is_raised() && matches!(end, BranchEnd::Stalled(_));
+        if is_interrupted { BranchEnd::Interrupted } else { end }
     }
 
     fn walk(
@@ -123,6 +136,7 @@ impl Follower<'_> {
         let mut since_kept = 0;
         let mut steps = 0;
         loop {
+            let known = leg.points.len();
             if leg.points.len() >= self.study.most_points {
                 self.close(traced, walker, leg);
                 return BranchEnd::PointLimit;
@@ -186,6 +200,9 @@ impl Follower<'_> {
                     return BranchEnd::Stop;
                 }
             }
+            if self.interrupt.is_raised() {
+                return self.interrupted(traced, walker, leg, known);
+            }
             // What was passed has led away from the point, and forces there are not those here.
             if last_part.is_some() && walker.here().point.restore(traced).is_ok() {
                 let _ = traced.problem().residual();
@@ -223,17 +240,36 @@ impl Follower<'_> {
                 self.keep(traced, walker, &mut point);
             }
             leg.points.push(point);
-            (self.progress)(TraceProgress {
-                branch: self.branch,
-                points: leg.points.len(),
-                parameter: traced.axes[0].value(scaled),
-            });
+            self.tell(leg);
             before = reading;
             if self.renew(traced, walker).is_err() {
                 self.close(traced, walker, leg);
                 return stalled(&Stall::Short);
             }
         }
+    }
+
+    /// Tells of the points that are new.
+    fn tell(&mut self, leg: &Leg) {
+        let found = leg.points.get(self.told..).unwrap_or_default();
+        let Some(last) = found.last() else { return };
+        let (branch, points, parameter) = (self.branch, leg.points.len(), last.parameter);
+        (self.progress)(TraceProgress { branch, points, parameter, found });
+        self.told = points;
+    }
+
+    /// Takes back what an interrupted step has left behind the `known` points.
+    fn interrupted(
+        &self,
+        traced: &mut Traced<'_>,
+        walker: &mut Walker,
+        leg: &mut Leg,
+        known: usize,
+    ) -> BranchEnd {
+        leg.points.truncate(known);
+        leg.met.retain(|met| met.at < known);
+        self.close(traced, walker, leg);
+        BranchEnd::Interrupted
     }
 
     /// Why a leg ends that cannot go on: at the very end of the range there may be no regular point, for a load that goes to nothing can
@@ -416,7 +452,8 @@ impl Follower<'_> {
             parameter: traced.axes[0].value(at.parameters[0]),
             arc,
             kind,
-            outputs: reading.outputs,
+            outputs: reading.values.outputs,
+            output_reasons: reading.values.reasons,
             error_estimate: error,
             stable: index.map(|count| count == 0),
             unstable_directions: index,

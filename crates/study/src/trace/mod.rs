@@ -12,18 +12,22 @@ mod record;
 mod ritz;
 mod search;
 
+use flexura_solution::TracePoint;
+
 pub use branches::trace;
 pub use buckle::buckle;
 
 /// How far a trace has come.
 #[derive(Clone, Copy, Debug)]
-pub struct TraceProgress {
+pub struct TraceProgress<'a> {
     /// Number of the branch that is being followed.
     pub branch: usize,
     /// Points on it so far.
     pub points: usize,
     /// Value of the parameter at the last of them, SI.
     pub parameter: f64,
+    /// Points of the branch that were not told before, in the order in which they were found; of a critical curve none.
+    pub found: &'a [TracePoint],
 }
 
 /// A study that does not fit its model.

@@ -6,7 +6,7 @@ use flexura_continuation::{Crossing as Met, Place};
 use flexura_equilibrium::Equilibrium;
 use flexura_model::{BeamPoint, Output, ProbeTarget, Target};
 use flexura_nonlinear::System;
-use flexura_post::OutputValue;
+use flexura_post::{OutputValue, Values};
 use flexura_solution::{Crossing, Direction, PointKind, Solution, TracePoint};
 use flexura_spatial::Twist;
 
@@ -18,7 +18,7 @@ const SHIFT: f64 = 1e-5;
 /// What is read off at every point.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Reading {
-    pub outputs: Vec<Option<Vec<f64>>>,
+    pub values: Values,
     /// How far every watched quantity is from its value.
     pub left: Vec<Option<f64>>,
 }
@@ -63,12 +63,6 @@ impl Reader {
     }
 
     fn read_from(&self, model: &flexura_model::Model, solution: &Solution) -> Reading {
-        let list = |value: OutputValue| match value {
-            OutputValue::Number(v) => vec![v],
-            OutputValue::Vector(v) => v.to_vec(),
-        };
-        let outputs = flexura_post::each_output(model, solution);
-        let outputs = outputs.into_iter().map(|result| result.ok().map(|r| list(r.value))).collect();
         let left = self
             .watched
             .iter()
@@ -80,7 +74,7 @@ impl Reader {
                 }
             })
             .collect();
-        Reading { outputs, left }
+        Reading { values: flexura_post::output_values(model, solution), left }
     }
 
     /// The whole present state.
@@ -155,7 +149,8 @@ pub(crate) fn regular(value: f64, place: &Place, reading: Reading, error: f64) -
         parameter: value,
         arc: place.arc,
         kind: PointKind::Regular,
-        outputs: reading.outputs,
+        outputs: reading.values.outputs,
+        output_reasons: reading.values.reasons,
         error_estimate: error,
         stable: place.index.map(|count| count == 0),
         unstable_directions: place.index,

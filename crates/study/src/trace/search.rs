@@ -29,6 +29,9 @@ pub(crate) fn find(
     if let Some((parameter, from)) = follower.study.imperfection {
         let mut told = Vec::new();
         for place in PLACES {
+            if follower.interrupt.is_raised() {
+                return;
+            }
             match imperfection(traced, follower, model, (parameter, from), place, collection) {
                 Ok(()) => {
                     told.clear();
@@ -43,7 +46,7 @@ pub(crate) fn find(
                 }
             }
         }
-        if !told.is_empty() {
+        if !told.is_empty() && !follower.interrupt.is_raised() {
             let name = &model.parameters[parameter].name;
             collection
                 .warnings
@@ -52,6 +55,9 @@ pub(crate) fn find(
     }
     if follower.study.guesses > 0 {
         for end in [1.0, 0.0] {
+            if follower.interrupt.is_raised() {
+                return;
+            }
             guesses(traced, follower, options, end, collection);
         }
     }
@@ -84,6 +90,7 @@ fn guesses(
     let Ok(found) = equilibria(&model, &options, follower.study.guesses, SEED) else { return };
     for solution in found.iter().filter(|solution| solution.status == Status::Converged) {
         let Ok(mut prepared) = Prepared::new(&model) else { return };
+        prepared.heed(&follower.interrupt);
         prepared.problem.watch(follower.reader.places());
         if prepared.solve_near(solution, options.tolerance).is_none() {
             continue;
@@ -117,6 +124,7 @@ fn imperfection(
     let start = main.scaled(follower.study.start);
     let changed = traced.model_with(&[(main.parameter, follower.study.start), (parameter, from)])?;
     let mut prepared = Prepared::new(&changed).map_err(|error| error.message)?;
+    prepared.heed(&follower.interrupt);
     prepared.problem.watch(follower.reader.places());
     let outcome = prepared.solve(follower.tolerance, &mut |_| {});
     if outcome.status != Status::Converged {
