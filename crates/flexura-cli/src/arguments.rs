@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[command(
     name = "flexura",
     version,
-    after_help = "Start with:\n  flexura examples                        the bundled models\n  flexura examples cantilever_strip       write one of them here\n  flexura solve cantilever_strip.toml     solve it\n  flexura sweep cantilever_strip.toml --vary payload=\"10 g:50 g:5\"\n  flexura trace sensor_clamp.toml --parameter push --range \"0 N:20 N\"\n\nExit codes: 0 converged, 1 not converged, 2 wrong input, 3 the machine failed."
+    after_help = "Start with:\n  flexura examples                        the bundled models\n  flexura examples cantilever_strip       write one of them here\n  flexura solve cantilever_strip.toml     solve it\n  flexura sweep cantilever_strip.toml --vary payload=\"10 g:50 g:5\"\n  flexura trace sensor_clamp.toml --parameter push --range \"0 N:20 N\"\n\nExit codes: 0 converged, 1 not converged, 2 wrong input, 3 the machine failed, 130 interrupted: what was found is kept."
 )]
 pub struct Arguments {
     #[command(subcommand)]

@@ -22,7 +22,7 @@ fn a_motion_is_summarised_and_written() {
     let table = std::fs::read_to_string(folder.join("motion.csv")).unwrap();
     let first = "time [s],theta [rad],rate [rad/s],acceleration [rad/s^2],r [m],f_r [N],f_theta [N],tau_a [N*m],\
                  knee.coordinate [rad],knee.velocity [rad/s],knee.effort [N*m],\
-                 shift.coordinate [m],shift.velocity [m/s],shift.effort [N],drive_power [W],kinetic_energy [J]";
+                 shift.coordinate [m],shift.velocity [m/s],shift.effort [N],drive_power [W],kinetic_energy [J],reason";
     assert_eq!(table.lines().next().unwrap(), first);
     assert_eq!(table.lines().count(), 404);
     let result: serde_json::Value =

@@ -148,17 +148,21 @@ fn an_output_without_a_value_leaves_the_others() {
     let output =
         flexura().arg("solve").arg(&file).args(["--set", "push=-1 N", "--json", "-o"]).arg(&folder).output();
     let output = output.unwrap();
-    assert_eq!(code(&output), 2);
-    assert!(stderr(&output).contains("`root`"), "{}", stderr(&output));
+    assert_eq!(code(&output), 0);
+    // Told where the file asks for it.
+    for words in ["warning", "output `root` is NaN", "leaf.toml:26:", "root = \"sqrt("] {
+        assert!(stderr(&output).contains(words), "{words}: {}", stderr(&output));
+    }
     let document: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(document["status"], "converged");
-    assert_eq!(document["outputs"].get("root"), None);
+    assert_eq!(document["outputs"].get("root"), Some(&Value::Null));
+    assert!(document["output_reasons"]["root"].as_str().unwrap().contains("not a finite number"));
     assert!(document["outputs"]["slope"].as_f64().unwrap() > 0.0);
     assert!(document["warnings"][0].as_str().unwrap().contains("`root`"), "{}", document["warnings"]);
     assert!(folder.join("result.json").is_file() && folder.join("shape.svg").is_file());
 
     let summary = flexura().arg("solve").arg(&file).output().unwrap();
-    assert_eq!(code(&summary), 2);
+    assert_eq!(code(&summary), 0);
     assert!(stdout(&summary).contains("slope") && !stdout(&summary).contains("root"));
 
     let sweep = flexura().arg("sweep").arg(&file).args(["--vary", "push=-1 N,1 N"]).output().unwrap();
@@ -166,7 +170,62 @@ fn an_output_without_a_value_leaves_the_others() {
     assert!(stderr(&sweep).contains("1 converged sample lacks"), "{}", stderr(&sweep));
     let rows = rows(&stdout(&sweep));
     assert_eq!(cell(&rows, 1, "root"), "");
+    assert!(rows[1].join(",").contains("\"output `root` is NaN, not a finite number"), "{:?}", rows[1]);
     assert_ne!(cell(&rows, 2, "root"), "");
+}
+
+/// What an output lacks is lacking at the points of a path, too.
+#[test]
+fn a_point_of_a_path_says_why_an_output_has_no_value() {
+    let folder = folder("a_point_without_a_value");
+    let file = folder.join("leaf.toml");
+    std::fs::write(&file, LEAF).unwrap();
+    let output = flexura()
+        .arg("trace")
+        .arg(&file)
+        .args(["--parameter", "push", "--range", "-1 N:1 N", "--steps", "5", "--json", "-o"])
+        .arg(&folder)
+        .output()
+        .unwrap();
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stderr(&output).contains("output `root` is NaN"), "{}", stderr(&output));
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    for point in document["branches"][0]["points"].as_array().unwrap() {
+        let below = point["outputs"]["tip"][2].as_f64().unwrap() < 0.0;
+        assert_eq!(point["outputs"]["root"].is_null(), below, "{point}");
+        assert_eq!(point["output_reasons"]["root"].is_string(), below);
+    }
+    let path = std::fs::read_to_string(folder.join("path.csv")).unwrap();
+    assert!(path.lines().nth(1).unwrap().ends_with("the root of a negative number?)\""), "{path}");
+}
+
+/// One output without a value, and one parameter whose neighbour is no mechanism, take nothing else along.
+#[test]
+fn sensitivities_leave_out_only_what_has_none() {
+    let folder = folder("sensitivities_leave_out");
+    let file = folder.join("leaf.toml");
+    // With a little more of `part` the load's place lies beyond the leaf.
+    let text = LEAF
+        .replace("push = \"-1 N\"", "push = \"-0.05 N\"\npart = 1")
+        .replace("\nat = 1\n", "\nat = \"part\"\n")
+        .replace("slope =", "ratio = \"1 / (push + 0.05 N)\"\nslope =");
+    std::fs::write(&file, text).unwrap();
+    let output = flexura().arg("solve").arg(&file).args(["--sensitivity", "--json"]).output().unwrap();
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(document["outputs"].get("ratio"), Some(&Value::Null));
+    let sensitivities = &document["sensitivities"];
+    assert_eq!(sensitivities.get("ratio"), None);
+    let of_slope = sensitivities["slope"].as_object().unwrap();
+    assert_eq!(of_slope.keys().collect::<Vec<_>>(), ["length", "push"]);
+    // Under a small load the slope of a cantilever's tip grows with the load and with the square of the length.
+    let slope = document["outputs"]["slope"].as_f64().unwrap();
+    let elasticity = |p: &str| document["elasticities"]["slope"][p].as_f64().unwrap();
+    assert!(
+        slope > 0.0 && (elasticity("push") - 1.0).abs() < 1e-2 && (elasticity("length") - 2.0).abs() < 1e-2
+    );
+    assert!(stderr(&output).contains("no sensitivities to `part`"), "{}", stderr(&output));
+    assert!(!stderr(&output).contains("no sensitivities:"), "{}", stderr(&output));
 }
 
 #[test]

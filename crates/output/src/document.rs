@@ -148,16 +148,18 @@ fn unknowns(model: &Model, solution: &Solution) -> Result<Option<Named<f64>>, Ou
 }
 
 pub(crate) fn outputs(model: &Model, evaluation: &Evaluation) -> Result<Named<Option<Value>>, OutputError> {
-    Named::collect(model.outputs.iter(), |output| {
+    let mut outputs = Named::collect(evaluation.outputs.iter(), |output| {
         let path = || format!("outputs.{}", output.name);
-        let known = evaluation.outputs.iter().find(|result| result.name == output.name);
-        let value = match known.map(|result| result.value) {
-            Some(OutputValue::Number(number)) => Some(Value::Number(finite(number, path)?)),
-            Some(OutputValue::Vector(vector)) => Some(Value::Vector(all_finite(vector, path)?)),
-            None => None,
+        let value = match output.value {
+            OutputValue::Number(number) => Value::Number(finite(number, path)?),
+            OutputValue::Vector(vector) => Value::Vector(all_finite(vector, path)?),
         };
-        Ok((output.name.clone(), value))
-    })
+        Ok((output.name.clone(), Some(value)))
+    })?;
+    outputs.0.extend(evaluation.without_value.iter().map(|error| (error.output().to_owned(), None)));
+    // As the model asks for them, whether they have a value or not.
+    outputs.0.sort_by_key(|(name, _)| model.outputs.iter().position(|output| output.name == *name));
+    Ok(outputs)
 }
 
 pub(crate) fn output_reasons(evaluation: &Evaluation) -> Named<String> {

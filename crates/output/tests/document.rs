@@ -7,7 +7,7 @@ mod common;
 
 use common::{CURVATURE, HEIGHT, LENGTH, model, rich, robot, solution};
 use flexura_output::{OutputError, ReadError, document, read_document, solution_of, to_json};
-use flexura_post::{OutputResult, OutputValue, evaluate};
+use flexura_post::{OutputResult, OutputValue, PostError, evaluate};
 use flexura_solution::Status;
 use serde_json::{Value, json};
 
@@ -139,6 +139,26 @@ fn nan_is_refused_by_name() {
     });
     let error = document(&model, &solution(), &evaluation).unwrap_err();
     assert!(matches!(error, OutputError::NotFinite { ref field, .. } if field == "outputs.w"), "{error}");
+}
+
+#[test]
+fn an_output_without_a_value_is_null_in_its_place_with_the_reason() {
+    let (model, solution) = rich();
+    let mut evaluation = evaluate(&model, &solution).unwrap();
+    assert_eq!(evaluation.outputs.remove(0).name, "sink");
+    let error = PostError::NotFinite { output: "sink".into(), value: f64::INFINITY };
+    evaluation.without_value.push(error.clone());
+    let text = to_json(&document(&model, &solution, &evaluation).unwrap()).unwrap();
+    let value: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(value["outputs"].get("sink"), Some(&Value::Null));
+    assert!(value["outputs"]["place"].is_array());
+    assert_eq!(value["output_reasons"], json!({ "sink": error.to_string() }));
+    assert!(error.to_string().contains("is inf, not a finite number"));
+    assert!(text.find("\"sink\": null") < text.find("\"place\": ["), "in the order of the model");
+    // The sensitivities of the others are not affected.
+    assert_eq!(value["sensitivities"]["place"]["turn"], json!([0.05, 0.0, -0.1]));
+    let back = read_document(&text).unwrap();
+    assert_eq!(back.outputs.get("sink"), Some(&None));
 }
 
 #[test]

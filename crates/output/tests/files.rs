@@ -8,6 +8,7 @@ mod common;
 use common::{model, rich, solution};
 use flexura_output::{beams_csv, document, model_vtp, shape_svg, solution_of, to_json};
 use flexura_post::evaluate;
+use flexura_solution::Status;
 use std::process::Command;
 
 #[test]
@@ -108,6 +109,7 @@ assert abs(tip[0] - math.sin(1.2) / 6) < 1e-15 and tip[2] < 0, tip
 assert abs(mesh["displacement"][20][0] - (math.sin(1.2) / 6 - 0.2)) < 1e-15
 assert list(mesh.cell_data["beam"]) == [0, 1]
 assert list(mesh.field_data["beam_names"]) == ["strip", 'wire <"b">'], list(mesh.field_data["beam_names"])
+assert list(mesh.field_data["status"]) == ["converged"], list(mesh.field_data["status"])
 assert abs(mesh["strain"][3] - 3e-3) < 1e-12 and math.isnan(mesh["stress"][25])
 assert abs(mesh.compute_arc_length()["arc_length"].max() - 0.2) < 1e-3
 "#;
@@ -133,6 +135,61 @@ assert list(mesh.points[26]) == [0.0, 0.08, 0.0] and list(mesh["curvature"][34])
 assert abs(mesh["s"][34] - 0.08) < 1e-15 and math.isnan(mesh["stretch"][26]) and math.isnan(mesh["displacement"][26][0])
 "#;
     run(script, &path);
+}
+
+/// May a character stand in XML 1.0 (production 2), and can it be seen?
+fn is_seen(character: char) -> bool {
+    let is_legal =
+        matches!(character, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..);
+    is_legal && !matches!(character, '\u{7f}'..='\u{9f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+#[test]
+fn names_break_no_file_whatever_they_hold() {
+    const NASTY: &str = "=a\u{1b}[2J\u{9b}2J\u{202e}b\u{2066}\u{ffff}\u{0}<c>&\r\n";
+    let (mut model, solution) = rich();
+    model.name = NASTY.into();
+    model.beams[0].name = NASTY.into();
+    model.bodies[0].name = NASTY.into();
+    let evaluation = evaluate(&model, &solution).unwrap();
+    let picture = shape_svg(&model, &solution);
+    assert!(
+        picture.contains("=a\\u001B[2J\\u009B2J\\u202Eb\\u2066\\uFFFF\\u0000&lt;c&gt;&amp;\\u000D\\u000A")
+    );
+    let document = to_json(&document(&model, &solution, &evaluation).unwrap()).unwrap();
+    let table = beams_csv(&model, &solution, &evaluation).unwrap();
+    for text in [&picture, &document, &table, &model_vtp(&model, &solution, &evaluation)] {
+        assert_eq!(text.chars().find(|character| !is_seen(*character)), None);
+    }
+    let value: serde_json::Value = serde_json::from_str(&document).unwrap();
+    assert_eq!(value["model"], NASTY);
+    // As many rows as before, whose first cell is no formula.
+    let rows = beams_csv(&rich().0, &solution, &evaluation).unwrap().lines().count();
+    assert_eq!(table.lines().count(), rows);
+    assert!(table.lines().nth(1).unwrap().starts_with("'=a\\u001B"), "{table}");
+}
+
+#[test]
+fn a_long_name_stays_on_the_sheet() {
+    let (mut model, solution) = rich();
+    let name = "n".repeat(200);
+    model.name = name.repeat(5);
+    model.beams[0].name.clone_from(&name);
+    model.bodies[0].name = name;
+    let picture = shape_svg(&model, &solution);
+    let longest = picture.split("</text>").filter_map(|text| Some(text.rsplit_once('>')?.1.chars().count()));
+    assert!(longest.max().unwrap() < 160 && picture.contains("nnn…<"), "{picture}");
+}
+
+#[test]
+fn a_picture_of_what_did_not_converge_says_so() {
+    let (model, mut solution) = (model(), solution());
+    assert!(!shape_svg(&model, &solution).contains("not converged"));
+    (solution.status, solution.load_fraction) = (Status::Stalled, 0.43);
+    assert!(shape_svg(&model, &solution).contains("not converged, stalled; 43.000 % of the load"));
+    let evaluation = evaluate(&model, &solution).unwrap();
+    let before = model_vtp(&model, &common::solution(), &evaluation);
+    assert!(before.contains("Name=\"status\"") && before != model_vtp(&model, &solution, &evaluation));
 }
 
 #[test]

@@ -66,8 +66,10 @@ fn a_point_has_its_kind_outputs_verdict_and_state() {
     assert_eq!((&start["kind"], &start["parameter"]), (&"end".into(), &0.0.into()));
     assert_eq!((&start["stable"], &start["unstable_directions"]), (&true.into(), &0.into()));
     assert_eq!(start["outputs"]["middle"].as_array().unwrap().len(), 3);
-    // An output without a value is left out.
-    assert_eq!(start["outputs"].get("ratio, odd"), None);
+    // An output without a value is null, with the reason.
+    assert_eq!(start["outputs"].get("ratio, odd"), Some(&Value::Null));
+    assert_eq!(start["output_reasons"], serde_json::json!({ "ratio, odd": path::NO_VALUE }));
+    assert_eq!(point(0, 0)["outputs"].as_object().unwrap().len(), 4);
     assert_eq!(start["beams"]["link"]["s"].as_array().unwrap().len(), 21);
     assert!(start["beams"]["link"]["stress"].is_array());
     assert!((start["bodies"]["slider"]["position"][0].as_f64().unwrap() - LENGTH).abs() < 1e-12);
@@ -155,7 +157,7 @@ fn the_table_has_a_row_for_each_point() {
     assert_eq!(
         rows[0],
         "branch,point,kind,push [N],w [m],slide [m],middle.x [m],middle.y [m],middle.z [m],\"ratio, odd\",\
-         stable,unstable_directions,arc,error_estimate,detail"
+         stable,unstable_directions,arc,error_estimate,detail,reason"
     );
     assert_eq!(rows.len(), 1 + 11 + 15 + 7);
     let cells: Vec<&str> = rows[1].split(',').collect();
@@ -163,9 +165,11 @@ fn the_table_has_a_row_for_each_point() {
     assert_eq!(cells[9..13], ["", "true", "0", "0.0"]);
     assert!(
         rows[3].starts_with("1,3,branch,9.757,")
-            && rows[3].ends_with(",,,0.243925,3e-10,supercritical_pitchfork")
+            && rows[3].ends_with(
+                ",,,0.243925,3e-10,supercritical_pitchfork,\"output `ratio` is NaN, not a finite number\""
+            )
     );
-    assert!(rows[17].starts_with("2,6,event,") && rows[17].ends_with(",output.w = 30 mm"), "{}", rows[17]);
+    assert!(rows[17].starts_with("2,6,event,") && rows[17].ends_with(",output.w = 30 mm,"), "{}", rows[17]);
     assert!(rows[33].starts_with("3,7,end,30.0,"));
 
     let critical = with_view(&trace(), critical_csv).unwrap().unwrap();

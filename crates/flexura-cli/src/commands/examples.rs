@@ -2,10 +2,9 @@
 
 use crate::arguments::ExamplesArguments;
 use crate::failure::Failure;
-use crate::screen;
 use crate::table::Table;
-use std::fs::OpenOptions;
-use std::io::{ErrorKind, Write};
+use crate::{files, screen};
+use std::path::Path;
 
 macro_rules! bundled {
     ($($name:literal),* $(,)?) => {
@@ -119,23 +118,14 @@ fn write(name: &str, is_forced: bool) -> Result<(), Failure> {
         return Err(Failure::Input(format!("there is no bundled model `{name}`; {hint}")));
     };
     let path = format!("{name}.toml");
-    let mut options = OpenOptions::new();
-    options.write(true);
-    if is_forced {
-        options.create(true).truncate(true)
-    } else {
-        options.create_new(true)
-    };
-    match options.open(&path).and_then(|mut file| file.write_all(text.as_bytes())) {
-        Ok(()) => {
-            screen::note(&format!("wrote {path}; try: flexura solve {path}"));
-            Ok(())
-        }
-        Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Failure::Input(format!(
+    if !is_forced && Path::new(&path).symlink_metadata().is_ok() {
+        return Err(Failure::Input(format!(
             "{path} is there already and is left as it is; --force overwrites it"
-        ))),
-        Err(error) => Err(Failure::Machine(format!("cannot write {path}: {error}"))),
+        )));
     }
+    files::replace(Path::new(&path), text)?;
+    screen::note(&format!("wrote {path}; try: flexura solve {path}"));
+    Ok(())
 }
 
 #[cfg(test)]

@@ -175,7 +175,8 @@ fn complaint(samples: &[Sample]) -> Option<Failure> {
     }
     let failed: usize = counts.iter().map(|(_, count)| count).sum();
     let list: Vec<String> = counts.iter().map(|(word, count)| format!("{count} {word}")).collect();
-    let failed = (failed > 0).then(|| format!("{failed} of {solved} samples did not converge: {}", list.join(", ")));
+    let failed =
+        (failed > 0).then(|| format!("{failed} of {solved} samples did not converge: {}", list.join(", ")));
     if solved == samples.len() {
         return failed.map(Failure::NotConverged);
     }
@@ -320,9 +321,7 @@ impl<'a> SampleDocument<'a> {
                 let names = model.unknowns.iter().map(|u| model.parameters[u.parameter].name.clone());
                 Named(names.zip(sample.found.iter().copied()).collect())
             }),
-            outputs: Named(
-                outputs.map(|(i, output)| (output_name(i), output.as_ref().map(value))).collect(),
-            ),
+            outputs: Named(outputs.map(|(i, output)| (output_name(i), output.as_ref().map(value))).collect()),
             output_reasons: Named(
                 sample.output_reasons.iter().map(|(i, reason)| (output_name(*i), reason.as_str())).collect(),
             ),

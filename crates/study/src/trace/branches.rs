@@ -2,7 +2,7 @@
 
 use super::leg::{FINER, First, Follower, Leg, Met};
 use super::problem::{Axis, Traced};
-use super::record::Reader;
+use super::record::{Reader, without_value};
 use super::{TraceProgress, critical, search};
 use crate::{Family, Options, Prepared, ProblemError};
 use flexura_continuation::{Problem, Refusal, WalkOptions, Walker};
@@ -123,6 +123,7 @@ pub fn trace(
         ..collection.work
     };
     trace.branches = collection.branches;
+    trace.warnings.extend(without_value(&trace.branches));
     if follower.missed.get() > 0 && !options.interrupt.is_raised() {
         trace.warnings.push(format!(
             "{} events or stops were passed but could not be placed; take more steps",

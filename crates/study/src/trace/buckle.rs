@@ -121,7 +121,12 @@ pub fn buckle(
             Err(_) if options.interrupt.is_raised() => {
                 let reason = "interrupted before the critical values were found".to_string();
                 (solution.status, solution.reason) = (Status::Interrupted, Some(reason));
-                return Ok(Buckling { parameter: study.parameter, at: study.at, solution, modes: Vec::new() });
+                return Ok(Buckling {
+                    parameter: study.parameter,
+                    at: study.at,
+                    solution,
+                    modes: Vec::new(),
+                });
             }
             Err(Failure::Breakdown(breakdown)) => return Err(critical(breakdown)),
             Err(Failure::Problem(error)) => return Err(error),

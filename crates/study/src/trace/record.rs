@@ -7,7 +7,7 @@ use flexura_equilibrium::Equilibrium;
 use flexura_model::{BeamPoint, Output, ProbeTarget, Target};
 use flexura_nonlinear::System;
 use flexura_post::{OutputValue, Values};
-use flexura_solution::{Crossing, Direction, PointKind, Solution, TracePoint};
+use flexura_solution::{Branch, Crossing, Direction, PointKind, Solution, TracePoint};
 use flexura_spatial::Twist;
 
 /// Samples of beams where only outputs are wanted.
@@ -141,6 +141,20 @@ pub(crate) fn crossing(met: Met) -> Crossing {
         Met::Transcritical => Crossing::Transcritical,
         Met::Multiple(count) => Crossing::Multiple(count),
     }
+}
+
+/// Outputs that have no value at some points, each with the reason at the first of them.
+pub(crate) fn without_value(branches: &[Branch]) -> Vec<String> {
+    let points = || branches.iter().flat_map(|branch| &branch.points);
+    let mut first: Vec<(usize, &str, usize)> = Vec::new();
+    for (output, reason) in points().flat_map(|point| &point.output_reasons) {
+        match first.iter_mut().find(|(known, ..)| known == output) {
+            Some((.., count)) => *count += 1,
+            None => first.push((*output, reason, 1)),
+        }
+    }
+    let all = points().count();
+    first.iter().map(|(_, reason, count)| format!("{reason}; so it is at {count} of {all} points")).collect()
 }
 
 /// A regular point.
