@@ -39,6 +39,10 @@ impl<'a> Task<'a> {
         if let Some(tolerance) = tolerance {
             options.tolerance = tolerance;
         }
+        if let Some(folder) = folder {
+            // Hours of work should not end at a folder that cannot be written into.
+            files::probe(folder)?;
+        }
         let folder = folder.map(Path::to_path_buf);
         let (is_json, is_quiet) = (arguments.json, arguments.quiet);
         Ok(Self { file, model, overrides, options, folder, is_json, is_quiet })
@@ -52,7 +56,11 @@ impl<'a> Task<'a> {
     /// Writes the files, prints document or summary, tells the warnings, and ends as the study did.
     pub fn deliver(&self, mut answer: Answer) -> Result<(), Failure> {
         let is_interrupted = self.options.interrupt.is_raised();
-        let written = self.write(&mut answer, self.folder.as_deref())?;
+        // What has no room on the disk is shown nevertheless.
+        let (written, unwritten) = match self.write(&mut answer, self.folder.as_deref()) {
+            Ok(written) => (written, None),
+            Err(failure) => (None, Some(failure)),
+        };
         if let Some(document) = answer.document.as_ref().filter(|_| self.is_json) {
             screen::print_table(&written.map_or_else(|| json(document), Ok)?)?;
         } else if !self.is_quiet {
@@ -61,6 +69,11 @@ impl<'a> Task<'a> {
         if !self.is_quiet {
             warn_about(&self.file, &answer.warnings);
             warn_of_outputs(&self.file, &answer.without_value);
+        }
+        if let Some(failure) = unwritten {
+            return Err(failure);
+        }
+        if !self.is_quiet {
             self.tell_files(&answer, self.folder.as_deref());
         }
         match answer.failure {

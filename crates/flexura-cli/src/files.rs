@@ -62,6 +62,15 @@ pub fn make_folder(folder: &Path) -> Result<(), Failure> {
     })
 }
 
+/// Makes a folder where there is none, and tries whether files can be written into it.
+pub fn probe(folder: &Path) -> Result<(), Failure> {
+    make_folder(folder)?;
+    let path = folder.join(format!(".flexura.{}.tmp", std::process::id()));
+    let created = File::create(&path).map(drop);
+    let _ = fs::remove_file(&path);
+    created.map_err(|error| unwritable(&path, &error))
+}
+
 /// The files that an earlier study says to have written into a folder, besides its document. Names that flexura never writes
 /// are nobody's business.
 fn earlier(folder: &Path) -> Vec<String> {

@@ -14,6 +14,11 @@ impl Interrupt {
         Self::default()
     }
 
+    /// The flag itself, for those who raise it by other means, such as the handler of a signal.
+    pub fn flag(&self) -> Arc<AtomicBool> {
+        self.0.clone()
+    }
+
     /// Asks for the end.
     pub fn raise(&self) {
         self.0.store(true, Ordering::Relaxed);

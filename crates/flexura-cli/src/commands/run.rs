@@ -29,7 +29,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         }
         let folder = task.folder.as_ref().map(|folder| folder.join(&study.name));
         let mut answer = answer(&task, study, folder.as_deref())?;
-        task.write(&mut answer, folder.as_deref())?;
+        let written = task.write(&mut answer, folder.as_deref()).map(drop);
         if !task.is_quiet && !task.is_json {
             let heading = styled(BOLD, &format!("study {}", study.name));
             let gap = if study.name == studies[0].name { "" } else { "\n" };
@@ -38,9 +38,12 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         if !task.is_quiet {
             answer.warnings.iter().for_each(|warning| screen::warn(&format!("{}: {warning}", study.name)));
             warn_of_outputs(&task.file, &answer.without_value);
-            task.tell_files(&answer, folder.as_deref());
+            if written.is_ok() {
+                task.tell_files(&answer, folder.as_deref());
+            }
         }
-        failed.extend(answer.failure.map(|failure| (study.name.as_str(), failure)));
+        let failure = written.err().or(answer.failure);
+        failed.extend(failure.map(|failure| (study.name.as_str(), failure)));
         documents.extend(answer.document.map(|document| (study.name.clone(), document)));
     }
     if task.is_json {

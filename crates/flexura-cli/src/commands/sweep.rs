@@ -15,6 +15,7 @@ use flexura::solution::Status;
 use flexura::{Axis, Interrupt, Options, Sample, SampleStatus, Sweep};
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
 
 pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
@@ -29,8 +30,7 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let sweep = axes.and_then(|axes| Sweep::new(&file, overrides, axes, &options)).map_err(Failure::Input)?;
     let table = Table::new(&model, sweep.axes());
     // Hours of work should not end at a folder that is not there.
-    let path = arguments.output.as_deref();
-    let rows = match path {
+    let rows = match arguments.output.as_deref() {
         Some(path) => Rows::File(Growing::begin(path, &table.header())?),
         None if arguments.model.json => Rows::None,
         None => Rows::Screen(Ordered::begin(&table.header(), &options.interrupt)),
@@ -39,7 +39,9 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         warn_about(&file, &[]);
     }
 
-    let counter = Counter::new(arguments.model.quiet, sweep.count());
+    // Rows on a terminal show how far it has come, and a bar would run into them.
+    let shows_rows = matches!(rows, Rows::Screen(_)) && std::io::stdout().is_terminal();
+    let counter = Counter::new(arguments.model.quiet || shows_rows, sweep.count());
     let rows = Mutex::new(rows);
     let jobs = arguments.jobs.map(usize::from);
     let samples = sweep.run(jobs, &|position, sample| {
@@ -50,19 +52,40 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let samples = samples.map_err(Failure::Machine)?;
     counter.finish();
 
-    if let Some(path) = path {
-        let text = samples.iter().fold(table.header(), |text, sample| text + &table.row(sample));
-        files::replace(path, &text)?;
+    let rows = rows.into_inner().unwrap_or_else(PoisonError::into_inner);
+    deliver(arguments, &table, &samples, rows)
+}
+
+/// Writes the whole table, prints what is to be printed, and ends as the samples did.
+fn deliver(
+    arguments: &SweepArguments,
+    table: &Table<'_>,
+    samples: &[Sample],
+    rows: Rows,
+) -> Result<(), Failure> {
+    let path = arguments.output.as_deref();
+    let whole = || samples.iter().fold(table.header(), |text, sample| text + &table.row(sample));
+    let unwritten = path.and_then(|path| files::replace(path, &whole()).err());
+    if unwritten.is_none() {
+        rows.finish(samples, |sample| table.row(sample))?;
     }
-    rows.into_inner().unwrap_or_else(PoisonError::into_inner).finish(&samples, |sample| table.row(sample))?;
     if arguments.model.json {
-        let document = SweepDocument::new(&table, &samples);
-        screen::print_table(&json(&document)?)?;
+        screen::print_table(&json(&SweepDocument::new(table, samples))?)?;
+    } else if unwritten.is_some() {
+        // What has no room on the disk is shown nevertheless.
+        screen::print_table(&whole())?;
     }
     if !arguments.model.quiet {
-        tell(arguments, &table, &samples);
+        tell(table, samples);
     }
-    complaint(&samples).map_or(Ok(()), Err)
+    if let Some(failure) = unwritten {
+        return Err(failure);
+    }
+    if let (Some(path), false) = (path, arguments.model.quiet) {
+        let path = path.to_string_lossy();
+        screen::note(&format!("wrote {} samples into {}", samples.len(), visible(&path)));
+    }
+    complaint(samples).map_or(Ok(()), Err)
 }
 
 /// Where rows go while they are found.
@@ -139,7 +162,7 @@ impl Ordered {
 }
 
 /// What became of it, on standard error.
-fn tell(arguments: &SweepArguments, table: &Table<'_>, samples: &[Sample]) {
+fn tell(table: &Table<'_>, samples: &[Sample]) {
     let without_value = samples.iter().filter(|sample| !sample.output_reasons.is_empty()).collect::<Vec<_>>();
     if let Some((_, reason)) = without_value.first().and_then(|sample| sample.output_reasons.first()) {
         let count = without_value.len();
@@ -155,10 +178,6 @@ fn tell(arguments: &SweepArguments, table: &Table<'_>, samples: &[Sample]) {
             "{warned} of {} samples have warnings, which stand in their rows",
             samples.len()
         ));
-    }
-    if let Some(path) = &arguments.output {
-        let path = path.to_string_lossy();
-        screen::note(&format!("wrote {} samples into {}", samples.len(), visible(&path)));
     }
 }
 
