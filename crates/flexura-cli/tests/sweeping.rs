@@ -199,6 +199,30 @@ fn a_point_of_a_path_says_why_an_output_has_no_value() {
     assert!(path.lines().nth(1).unwrap().ends_with("the root of a negative number?)\""), "{path}");
 }
 
+/// A part of an output that holds no result is a number before anything is solved; one sample where it is none is no mistake in
+/// the file.
+#[test]
+fn a_quotient_of_parameters_without_a_value_leaves_the_others() {
+    let folder = folder("a_quotient_of_parameters");
+    let file = folder.join("leaf.toml");
+    std::fs::write(
+        &file,
+        LEAF.replace("slope =", "ratio = \"(1 / push) * beam.leaf.end.rotation.y\"\nslope ="),
+    )
+    .unwrap();
+    let sweep = flexura().arg("sweep").arg(&file).args(["--vary", "push=0 N,0.01 N"]).output().unwrap();
+    assert_eq!(code(&sweep), 0, "{}", stderr(&sweep));
+    let rows = rows(&stdout(&sweep));
+    assert_eq!(
+        (cell(&rows, 1, "ratio [rad/N]"), cell(&rows, 1, "tip.x [m]")),
+        (String::new(), "0.1".to_owned())
+    );
+    // L^2 / (2 E I), turning about -y.
+    let ratio: f64 = cell(&rows, 2, "ratio [rad/N]").parse().unwrap();
+    let slope = -0.1_f64.powi(2) / (2.0 * 207e9 * 10e-3 * 0.5e-3_f64.powi(3) / 12.0);
+    assert!((ratio / slope - 1.0).abs() < 1e-4, "{ratio} {slope}");
+}
+
 /// One output without a value, and one parameter whose neighbour is no mechanism, take nothing else along.
 #[test]
 fn sensitivities_leave_out_only_what_has_none() {

@@ -155,6 +155,9 @@ impl Ordered {
 
     fn finish(mut self, samples: &[Sample], row: impl Fn(&Sample) -> String) -> Result<(), Failure> {
         for sample in samples.iter().skip(self.next) {
+            if self.failure.is_some() {
+                break;
+            }
             self.print(&row(sample));
         }
         self.failure.map_or(Ok(()), Err)

@@ -32,7 +32,7 @@ pub(in crate::build) fn event(
     };
     let [left, right] = [part(context, node, 0, sign), part(context, node, sign + 1, text.len())];
     check_right(context, &right, path, text)?;
-    let results = Results { context, model, outputs: Some(outputs), is_live: true };
+    let results = Results { context, model, outputs: Some(outputs), is_live: true, may_be_infinite: false };
     let (Value::Text(left_text), Value::Text(right_text)) = (&left.value, &right.value) else {
         return Err(Reported);
     };

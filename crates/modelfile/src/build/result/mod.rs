@@ -38,13 +38,13 @@ pub(super) fn output(context: &Context<'_>, entry: &Entry, model: &Model) -> Rea
         let hint = format!("for example `{} = \"beam.link.end.position.z\"`", entry.key);
         return Err(context.wrong_with_hint(&entry.node.span, &path, message, hint));
     };
-    let results = Results { context, model, outputs: None, is_live: false };
+    let results = Results { context, model, outputs: None, is_live: false, may_be_infinite: true };
     results.read(&entry.node, &path, text, entry.key.clone())
 }
 
 /// The outputs with their parameters left open, as events need them: a path changes one, and others with it.
 pub(super) fn live_outputs(context: &Context<'_>, model: &Model, outputs: &[Built]) -> Vec<Built> {
-    let results = Results { context, model, outputs: None, is_live: true };
+    let results = Results { context, model, outputs: None, is_live: true, may_be_infinite: true };
     let count = context.count();
     let live = |built: &Built| {
         let entry = context.root.get("output")?.node.get(&built.output.name)?;
@@ -65,6 +65,8 @@ struct Results<'r, 'a> {
     outputs: Option<&'r [Built]>,
     /// Do parameters stay open, as probes?
     is_live: bool,
+    /// May a part without results be no finite number? An output then has no value, and the others are not affected.
+    may_be_infinite: bool,
 }
 
 impl Results<'_, '_> {
@@ -88,7 +90,7 @@ impl Results<'_, '_> {
             let lowered = lowered.map_err(|error| {
                 if silent.get() { Reported } else { context.expression_error(node, path, &error) }
             })?;
-            if let Some(span) = &lowered.not_finite {
+            if let Some(span) = lowered.not_finite.as_ref().filter(|_| !self.may_be_infinite) {
                 let span = context.inner(node, span);
                 return Err(context.wrong(&span, path, "the expression gives no finite number"));
             }

@@ -59,7 +59,7 @@ pub(in crate::build) fn targets(
     model: &Model,
     outputs: &[Built],
 ) -> Vec<Target> {
-    let results = Results { context, model, outputs: Some(outputs), is_live: false };
+    let results = Results { context, model, outputs: Some(outputs), is_live: false, may_be_infinite: false };
     entries.iter().filter_map(|entry| target(&results, entry).ok()).collect()
 }
 
