@@ -85,6 +85,7 @@ impl Prepared {
             return Outcome {
                 status: Status::Stalled,
                 reason: Some(error.message),
+                ending: None,
                 error_estimate: f64::NAN,
                 path: flexura_nonlinear::PathWork::default(),
             };
@@ -92,6 +93,7 @@ impl Prepared {
         let start = Outcome {
             status: Status::Converged,
             reason: None,
+            ending: None,
             error_estimate: f64::NAN,
             path: flexura_nonlinear::PathWork { taken: 1, ..Default::default() },
         };

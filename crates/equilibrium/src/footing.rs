@@ -1,0 +1,202 @@
+//! What holds the mechanism at rest: its own stiffness, or only what its loads will bring.
+
+use crate::diagnose::{LARGEST_DENSE, null_space_of};
+use crate::error::ProblemError;
+use crate::system::Equilibrium;
+use flexura_nonlinear::{BLOCK, Breakdown, System};
+use nalgebra::DMatrix;
+
+/// How the unloaded mechanism stands.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Footing {
+    /// On its own stiffness.
+    Firm,
+    /// Something can move without resistance; the error names it.
+    Mobile(ProblemError),
+    /// Nothing can move, but forces in it cannot be told apart, as in straight beams side by side that do not stretch.
+    Stiff(ProblemError),
+}
+
+/// Motion by a unit force on a node, nondimensional, from which the tangent is looked at more closely.
+const SUSPICIOUS: f64 = 1e7;
+/// Part of a null vector from which something counts as moved by it.
+const MOVED: f64 = 1e-6;
+/// Cost of one entry in the factorisation of a dense tangent, beside an integration step.
+const ENTRY: f64 = 1e-2;
+/// Unknowns that a row of a sparse tangent meets in its factorisation, about.
+const ROW: f64 = 200.0;
+
+impl Equilibrium {
+    /// Looks whether the unloaded mechanism is held. The state is that of rest afterwards.
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub fn footing(&mut self) -> Result<Footing, ProblemError> {
+        self.rest();
+        self.set_load(0.0);
+        let null = match self.linearise() {
+            Ok(()) if !self.is_suspicious() => return Ok(Footing::Firm),
+            Ok(()) => self.scaled_null_space(),
+            Err(Breakdown::Singular) if self.find_slack() => return Ok(Footing::Firm),
+            Err(Breakdown::Singular) => self.null_space(),
+            Err(Breakdown::NotFinite) => {
+                return Err(ProblemError::new(
+                    "model",
+                    "gives numbers that are not finite at rest",
+                    "look for stiffnesses or lengths that are many orders of magnitude apart",
+                ));
+            }
+        };
+        self.factorised = false;
+        let regular = null.is_empty() && self.linearise().is_ok();
+        if regular {
+            return Ok(Footing::Firm);
+        }
+        let error = self.explain_singular(&null);
+        let moves = null.iter().any(|v| self.motions().any(|unknown| v[unknown].abs() > MOVED));
+        Ok(if moves { Footing::Mobile(error) } else { Footing::Stiff(error) })
+    }
+
+    /// Unknowns that are motions of nodes or coordinates.
+    fn motions(&self) -> impl Iterator<Item = usize> {
+        let nodes = self.layout.nodes.iter().map(|slot| (slot.unknown, 6));
+        let coordinates = self.coordinate_slots().map(|(_, slot)| (slot.unknown, slot.count));
+        nodes.chain(coordinates).flat_map(|(first, count)| first..first + count)
+    }
+
+    /// Does the factorised tangent let a node or coordinate go very far under a force of one? Round-off can hide that nothing
+    /// holds it at all.
+    fn is_suspicious(&mut self) -> bool {
+        let motions: Vec<usize> = self.motions().collect();
+        if motions.is_empty() {
+            return false;
+        }
+        let kept = self.r.clone();
+        self.r.fill(0.0);
+        self.gaps.iter_mut().flatten().for_each(|gap| *gap = [0.0; BLOCK]);
+        for (k, unknown) in motions.iter().enumerate() {
+            // Numbers without a pattern, between a half and one in size.
+            let wave = (2.4 * k as f64 + 0.7).sin();
+            self.r[*unknown] = wave.signum() * (0.5 + 0.5 * wave.abs());
+        }
+        let mut step = vec![0.0; self.layout.unknowns];
+        self.newton_step(&mut step);
+        self.counts.newton_steps -= 1;
+        self.r = kept;
+        let largest = motions.iter().map(|unknown| step[*unknown].abs()).fold(0.0, f64::max);
+        largest.is_nan() || largest > SUSPICIOUS
+    }
+
+    /// The null space of the tangent at the present state with rows and columns brought to one size, so that stiff parts do
+    /// not hide what is loose beside them.
+    pub(crate) fn scaled_null_space(&mut self) -> Vec<Vec<f64>> {
+        let n = self.layout.interface;
+        if n > LARGEST_DENSE {
+            return self.null_space();
+        }
+        let _ = self.evaluate(true);
+        let mut matrix = DMatrix::zeros(n, n);
+        self.tangent.for_each(|i, j, value| matrix[(i, j)] += value);
+        let mut scales = vec![1.0; n];
+        for _ in 0..3 {
+            for i in 0..n {
+                let largest = matrix.row(i).amax();
+                if largest > 0.0 {
+                    matrix.row_mut(i).scale_mut(1.0 / largest);
+                }
+            }
+            for (j, scale) in scales.iter_mut().enumerate() {
+                let largest = matrix.column(j).amax();
+                if largest > 0.0 {
+                    matrix.column_mut(j).scale_mut(1.0 / largest);
+                    *scale /= largest;
+                }
+            }
+        }
+        let mut null = null_space_of(matrix);
+        for vector in &mut null {
+            vector.iter_mut().zip(&scales).for_each(|(v, s)| *v *= s);
+            let largest = vector.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+            vector.iter_mut().for_each(|v| *v /= largest);
+        }
+        null
+    }
+
+    /// Moves every node and coordinate a little, up to `size` in L or radians, without a pattern.
+    pub fn nudge(&mut self, size: f64) {
+        let mut step = vec![0.0; self.layout.unknowns];
+        for (k, unknown) in self.motions().enumerate() {
+            step[unknown] = size * (3.7 * k as f64 + 1.3).sin();
+        }
+        self.retract(&step);
+    }
+
+    /// The largest motion of a node or coordinate in a step.
+    pub fn moved_by(&self, step: &[f64]) -> f64 {
+        self.motions().map(|unknown| step[unknown].abs()).fold(0.0, f64::max)
+    }
+
+    /// What nothing holds in the present state, under the present load; None where everything is held.
+    pub fn loose_here(&mut self) -> Option<ProblemError> {
+        let null = self.scaled_null_space();
+        self.factorised = false;
+        (!null.is_empty()).then(|| self.explain_singular(&null))
+    }
+
+    /// Cost of a factorisation, in integration steps.
+    pub(crate) fn cost_of_factorising(&self) -> f64 {
+        let n = self.layout.interface as f64;
+        ENTRY * n * n.min(ROW) * n.min(ROW) / 30.0
+    }
+
+    /// Lets Newton's method and the way to the full load end where so much more work has been done, in integration steps of one
+    /// state.
+    pub fn allow_effort(&mut self, most: f64) {
+        self.effort = (0.0, most);
+    }
+
+    /// Number of spans between nodes.
+    pub fn spans(&self) -> usize {
+        self.lowered.spans.len()
+    }
+
+    /// Gives all beams a compliance in stretching besides their own: 1 lets EI/L² of the softest stretch it by its length.
+    /// The state stays.
+    pub fn soften(&mut self, compliance: f64) {
+        self.softening = compliance;
+        for law in &mut self.lowered.beams {
+            law.soften(compliance / (law.wrench_unit[0] * law.scale.force));
+        }
+        let counts: Vec<usize> = self.meshes.iter().map(|mesh| mesh.segments.len()).collect();
+        self.remesh(&counts);
+    }
+
+    /// Is a beam among the parts?
+    pub fn has_beams(&self) -> bool {
+        !self.lowered.spans.is_empty()
+    }
+
+    /// The largest force or moment that is out of balance on a node or coordinate at the present state, nondimensional.
+    ///
+    /// # Errors
+    /// The state has no sound numbers.
+    pub fn unbalance(&mut self) -> Result<f64, Breakdown> {
+        self.residual()?;
+        Ok(self.motions().map(|unknown| self.r[unknown].abs()).fold(0.0, f64::max))
+    }
+
+    /// The largest force that a span carries, in EI/L² of its beam.
+    pub fn largest_force(&self) -> f64 {
+        let each = self.lowered.spans.iter().zip(&self.levels);
+        each.map(|(span, level)| level.force / self.lowered.beams[span.beam].wrench_unit[0]).fold(0.0, f64::max)
+    }
+
+    /// The largest scaled distance of nodes from where they are at rest: shift over L.
+    pub fn gone(&self) -> f64 {
+        let each = self.lowered.nodes.iter().zip(&self.layout.nodes);
+        each.map(|(node, slot)| {
+            (crate::system::read_pose(&self.x, slot.state).position - node.initial.position).norm()
+        })
+        .fold(0.0, f64::max)
+    }
+}
