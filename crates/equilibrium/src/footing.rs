@@ -19,8 +19,12 @@ pub enum Footing {
 
 /// Motion by a unit force on a node, nondimensional, from which the tangent is looked at more closely.
 const SUSPICIOUS: f64 = 1e7;
+/// Compliance of a beam, in its own units, below which there is only round-off.
+const NOISE: f64 = 1e-11;
 /// Part of a null vector from which something counts as moved by it.
 const MOVED: f64 = 1e-6;
+/// Force, beside the loads and EI/L², from which forces count as growing beyond all bounds.
+const BOUNDLESS: f64 = 1e6;
 /// Cost of one entry in the factorisation of a dense tangent, beside an integration step.
 const ENTRY: f64 = 1e-2;
 /// Unknowns that a row of a sparse tangent meets in its factorisation, about.
@@ -34,6 +38,9 @@ impl Equilibrium {
     pub fn footing(&mut self) -> Result<Footing, ProblemError> {
         self.rest();
         self.set_load(0.0);
+        if let Some(error) = self.undetermined() {
+            return Ok(Footing::Stiff(error));
+        }
         let null = match self.linearise() {
             Ok(()) if !self.is_suspicious() => return Ok(Footing::Firm),
             Ok(()) => self.scaled_null_space(),
@@ -55,6 +62,36 @@ impl Equilibrium {
         let error = self.explain_singular(&null);
         let moves = null.iter().any(|v| self.motions().any(|unknown| v[unknown].abs() > MOVED));
         Ok(if moves { Footing::Mobile(error) } else { Footing::Stiff(error) })
+    }
+
+    /// Beams between two holds whose length nothing at rest relates to their force: straight ones that do not stretch. What stands in
+    /// their rows is round-off, and an elimination does not see that.
+    fn undetermined(&mut self) -> Option<ProblemError> {
+        let may = |this: &Self, i: usize| {
+            let span = &this.lowered.spans[i];
+            let law = &this.lowered.beams[span.beam];
+            span.end.is_some() && law.yields() * law.wrench_unit[0] < NOISE
+        };
+        if !(0..self.lowered.spans.len()).any(|i| may(self, i)) || self.evaluate(true).is_err() {
+            return None;
+        }
+        let mut largest = vec![0.0_f64; self.layout.interface];
+        self.tangent.for_each(|i, _, value| largest[i] = largest[i].max(value.abs()));
+        let names: Vec<String> = (0..self.lowered.spans.len())
+            .filter(|i| may(self, *i))
+            .filter(|i| {
+                let law = &self.lowered.beams[self.lowered.spans[*i].beam];
+                let row = self.layout.spans[*i].wrench.unknown;
+                largest[row..row + 6].iter().any(|value| value * law.wrench_unit[0] < NOISE)
+            })
+            .map(|i| format!("beam.{}", self.model.beams[self.lowered.spans[i].beam].name))
+            .collect();
+        let first = names.first()?.clone();
+        Some(ProblemError::new(
+            first,
+            format!("over-constrained loop; the forces cannot be told apart of: {}", names.join(", ")),
+            "free one of the joints, or let a beam of the loop stretch and bend",
+        ))
     }
 
     /// Unknowns that are motions of nodes or coordinates.
@@ -171,6 +208,23 @@ impl Equilibrium {
         self.remesh(&counts);
     }
 
+    /// Do loads turn or stretch a beam so far that they must be a mistake? By √(F/EI) L, or (M L/EI), beyond `most`.
+    pub fn is_excessive(&self, most: f64) -> bool {
+        self.lowered.spans.iter().zip(&self.expected).any(|(span, level)| {
+            let law = &self.lowered.beams[span.beam];
+            let length = (span.s[1] - span.s[0]) / law.scale.length;
+            let phase = (level.force * law.soft()).sqrt() * length;
+            let turning = (level.moment + level.tendons) * law.soft() * length;
+            // A number that is none is no sound load either.
+            !(phase <= most && turning <= most)
+        })
+    }
+
+    /// Is a stretch of a beam held at both ends?
+    pub fn has_closed_spans(&self) -> bool {
+        self.lowered.spans.iter().any(|span| span.end.is_some())
+    }
+
     /// Is a beam among the parts?
     pub fn has_beams(&self) -> bool {
         !self.lowered.spans.is_empty()
@@ -188,7 +242,27 @@ impl Equilibrium {
     /// The largest force that a span carries, in EI/L² of its beam.
     pub fn largest_force(&self) -> f64 {
         let each = self.lowered.spans.iter().zip(&self.levels);
-        each.map(|(span, level)| level.force / self.lowered.beams[span.beam].wrench_unit[0]).fold(0.0, f64::max)
+        each.map(|(span, level)| level.force / self.lowered.beams[span.beam].wrench_unit[0])
+            .fold(0.0, f64::max)
+    }
+
+    /// Have forces grown far beyond the loads?
+    pub fn is_boundless(&self) -> bool {
+        self.largest_force() > BOUNDLESS * (1.0 + self.given_force())
+    }
+
+    /// The sum of all loads, in EI/L² of the softest beam: what forces may be expected to be.
+    pub fn given_force(&self) -> f64 {
+        let size = |load: &flexura_mechanics::load::PointLoad| {
+            load.dead.force.norm()
+                + load.follower.force.norm()
+                + load.dead.moment.norm()
+                + load.follower.moment.norm()
+        };
+        let nodes = self.lowered.nodes.iter().flat_map(|node| &node.loads).map(|(_, load, _)| size(load));
+        let spans = self.expected.iter().map(|level| level.force + level.moment + level.tendons);
+        let unit = self.lowered.spans.iter().map(|span| self.lowered.beams[span.beam].wrench_unit[0]);
+        (nodes.sum::<f64>() + spans.sum::<f64>()) / unit.fold(f64::INFINITY, f64::min).min(1.0)
     }
 
     /// The largest scaled distance of nodes from where they are at rest: shift over L.

@@ -194,11 +194,12 @@ impl Equilibrium {
             let turn = pose.rotation.angle_to(&anchor.rotation);
             (pose.position - anchor.position).norm().max(turn)
         });
-        let coordinates = self.coordinate_slots().zip(&self.held_back).map(|((coordinates, slot), anchor)| {
-            let mut gone = [0.0; MAX_FREEDOMS];
-            coordinates.step(anchor, &self.configuration(slot), &mut gone[..slot.count]);
-            gone.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()))
-        });
+        let coordinates =
+            self.coordinate_slots().zip(&self.held_back).map(|((coordinates, slot), anchor)| {
+                let mut gone = [0.0; MAX_FREEDOMS];
+                coordinates.step(anchor, &self.configuration(slot), &mut gone[..slot.count]);
+                gone.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()))
+            });
         coordinates.fold(each.fold(0.0, f64::max), f64::max)
     }
 

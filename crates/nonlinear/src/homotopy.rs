@@ -104,8 +104,12 @@ const SAME: f64 = 1e-9;
 
 /// One try at a point of the path.
 enum Try {
-    Good { first: f64 },
-    Far { first: f64 },
+    Good {
+        first: f64,
+    },
+    Far {
+        first: f64,
+    },
     NotContracting,
     Broken,
     /// The first step points away from that by the last point's tangent.
@@ -123,6 +127,8 @@ pub struct PathWork {
     pub refused: usize,
     /// Load fraction at which det J first changed sign: a branch point.
     pub crossing: Option<f64>,
+    /// Number of branch points that were passed, as far as they were seen.
+    pub crossings: usize,
 }
 
 #[derive(Clone)]
@@ -130,6 +136,10 @@ struct Point {
     load: f64,
     state: Vec<f64>,
 }
+
+/// Refusals in a row, and how short steps have become by then beside the longest taken, from which such a path gives up too.
+const REFUSALS: usize = 4;
+const SHRUNK: f64 = 1e-3;
 
 /// Sign changes of det J in a row from which a path that leaves them to others gives up.
 const FLIPS: usize = 2;
@@ -170,6 +180,7 @@ pub fn follow_on(
     let mut slope = Some(response);
     let before = work.taken + work.refused;
     let (mut flips, mut flip_width) = (0, 0.0);
+    let (mut refusals, mut longest) = (0, 0.0_f64);
     let mut mark = (before, from);
 
     while work.taken + work.refused < before + options.steps {
@@ -179,12 +190,12 @@ pub fn follow_on(
         }
         if work.taken + work.refused >= mark.0 + options.patience {
             if last < mark.1 + options.least_growth {
-                return blocked(system, &points, Block::Slow);
+                return blocked(system, &points, options, Block::Slow);
             }
             mark = (work.taken + work.refused, last);
         }
         if system.is_exhausted() {
-            return blocked(system, &points, Block::Work);
+            return blocked(system, &points, options, Block::Work);
         }
         let mut load = (last + width).min(1.0);
         let furthest = system.phase(last) + options.largest_phase;
@@ -221,18 +232,20 @@ pub fn follow_on(
         if matches!(outcome, Try::Good { .. }) && system.orientation() != orientation {
             orientation = system.orientation();
             work.crossing.get_or_insert(load);
+            work.crossings += 1;
         }
         if matches!(outcome, Try::Flipped) {
             flips += 1;
             flip_width = if flips == 1 { width } else { flip_width };
             if options.leaves_crossings && flips >= FLIPS {
                 work.refused += 1;
-                return blocked(system, &points, Block::Crossing);
+                return blocked(system, &points, options, Block::Crossing);
             }
         }
         let growth = match outcome {
             Try::Good { first } => {
                 work.taken += 1;
+                (refusals, longest) = (0, longest.max(width));
                 if width >= flip_width {
                     flips = 0;
                 }
@@ -253,17 +266,20 @@ pub fn follow_on(
             }
             Try::Far { first } => {
                 work.refused += 1;
+                refusals += 1;
                 width * (0.5 * reach / first).powf(1.0 / order.max(1) as f64).clamp(0.1, 0.6)
             }
             Try::NotContracting | Try::Broken | Try::Crossed | Try::Flipped => {
                 work.refused += 1;
+                refusals += 1;
                 0.4 * width
             }
         };
         width = growth;
         let reached = &points[points.len() - 1];
-        if reached.load < 1.0 && width < options.shortest_step {
-            return blocked(system, &points, Block::Short);
+        let short = options.leaves_crossings && refusals >= REFUSALS && width < SHRUNK * longest;
+        if reached.load < 1.0 && (short || width < options.shortest_step) {
+            return blocked(system, &points, options, Block::Short);
         }
         if reached.load < load {
             // Refused. Points far apart say little about a sharp bend; the tangent at the last point does.
@@ -277,12 +293,13 @@ pub fn follow_on(
     if points[points.len() - 1].load >= 1.0 {
         return PathEnd::Complete;
     }
-    blocked(system, &points, Block::Steps)
+    blocked(system, &points, options, Block::Steps)
 }
 
-/// The end of a path at its last point, to which the system goes back.
-fn blocked(system: &mut impl System, points: &[Point], by: Block) -> PathEnd {
-    let reached = &points[points.len() - 1];
+/// The end of a path at its last point, to which the system goes back; at one a few steps before, if another method is to go on
+/// from there, for what blocks a path spoils the points next to it.
+fn blocked(system: &mut impl System, points: &[Point], options: &PathOptions, by: Block) -> PathEnd {
+    let reached = if options.leaves_crossings { &points[0] } else { &points[points.len() - 1] };
     system.set_load(reached.load);
     system.restore(&reached.state);
     PathEnd::Blocked { load: reached.load, by }

@@ -50,6 +50,8 @@ pub enum Ending {
         load: f64,
         /// Load steps taken and refused.
         steps: usize,
+        /// Branch points that were passed.
+        crossings: usize,
     },
     /// Steps became too short, and neither a fold nor anything else that ends a path was found.
     Short {
@@ -97,10 +99,19 @@ impl fmt::Display for Ending {
                 )
             }
             Ending::Boundary { load, ends } => {
-                write!(f, "{}: {}; reduce the load, or give longer boundaries", part(load), ends.join(", and "))
+                write!(
+                    f,
+                    "{}: {}; reduce the load, or give longer boundaries",
+                    part(load),
+                    ends.join(", and ")
+                )
             }
             Ending::Loss { load, what } => {
-                write!(f, "{}: all stiffness is lost there, {what}; hold it by something else too", part(load))
+                write!(
+                    f,
+                    "{}: all stiffness is lost there, {what}; hold it by something else too",
+                    part(load)
+                )
             }
             Ending::Unreachable { load, force } => write!(
                 f,
@@ -112,10 +123,17 @@ impl fmt::Display for Ending {
                 f,
                 "the load is more than a hundred million times EI/L²; check its unit and the section's dimensions"
             ),
-            Ending::Work { load, steps } => write!(
+            Ending::Work { load, steps, crossings: 0 | 1 } => write!(
                 f,
                 "all the work that a solve may do, {steps} load steps, led to {:.4} % of the load only; look for loads or \
                  stiffnesses that are many orders of magnitude apart, or reduce the load",
+                100.0 * load
+            ),
+            Ending::Work { load, steps, crossings } => write!(
+                f,
+                "all the work that a solve may do, {steps} load steps, led to {:.4} % of the load only, past {crossings} branch \
+                 points, at each of which the mechanism would rather leave this symmetric path; add a small load that breaks \
+                 the symmetry",
                 100.0 * load
             ),
             Ending::Short { load } => write!(

@@ -11,12 +11,12 @@
 use crate::ending::Ending;
 use crate::way::Way;
 use flexura_equilibrium::{Equilibrium, Footing, ProblemError, Stability};
-use flexura_nonlinear::{NewtonEnd, NewtonOptions, System, converge};
+use flexura_nonlinear::{NewtonEnd, NewtonOptions, PathBlock, PathEnd, PathOptions, System, converge};
 
 /// Parts of the load under which a mechanism is let go, one after another until it stands.
 const LOADS: [f64; 3] = [1e-3, 3e-2, 1.0];
 /// Most steps of a creeping motion, and the way (L) after which it counts as going away for good.
-const CREEPS: usize = 400;
+const CREEPS: usize = 150;
 const AWAY: f64 = 200.0;
 /// Largest way of a step, in L or radians; the way below which the drag is taken back, and by how much.
 const LONGEST: f64 = 0.5;
@@ -29,6 +29,10 @@ const PUSH: f64 = 1e-2;
 const PUSHES: usize = 6;
 /// Compliance in stretching that is lent: EI/L² stretches a beam by this part of its length.
 const SOFT: f64 = 1e-3;
+/// Steps after which a path that has not come to the first of these counts as slow.
+const PATIENCE: usize = 25;
+/// Parts of the load under which it is taken back.
+const SOFT_LOADS: [f64; 3] = [2e-2, 0.1, 1.0];
 /// What is left of it at each step back, and the compliance that is as good as none.
 const STIFFER: f64 = 0.1;
 const NOTHING: f64 = 1e-13;
@@ -41,10 +45,11 @@ const CREEPING: NewtonOptions = NewtonOptions { tolerance: 1e-8, iterations: 20,
 /// What ended the way.
 pub(crate) fn go(way: &mut Way<'_>, footing: &Footing) -> Result<(), Ending> {
     let error = match footing {
-        Footing::Firm => return way.go(0.0),
+        Footing::Firm => return firm(way),
         Footing::Mobile(error) | Footing::Stiff(error) => error,
     };
     let mut ended = None;
+    way.problem.rest();
     if matches!(footing, Footing::Mobile(_)) {
         for load in LOADS {
             if !creep(way.problem, load) {
@@ -59,10 +64,33 @@ pub(crate) fn go(way: &mut Way<'_>, footing: &Footing) -> Result<(), Ending> {
             }
         }
     }
-    if way.problem.has_beams() && softened(way) {
-        return Ok(());
+    if way.problem.has_beams() {
+        match softened(way, matches!(footing, Footing::Mobile(_))) {
+            Ok(load) => return way.go(load),
+            Err(why) => ended = ended.or(why),
+        }
     }
     Err(ended.unwrap_or_else(|| Ending::NoStart(tried(way.problem, error))))
+}
+
+/// To the full load from firm rest. Where beams that hardly stretch make the first steps tiny, their stretching is softened for
+/// these.
+fn firm(way: &mut Way<'_>) -> Result<(), Ending> {
+    if !way.problem.has_closed_spans() {
+        return way.go(0.0);
+    }
+    let options = PathOptions { patience: PATIENCE, least_growth: SOFT_LOADS[0], ..way.options };
+    match way.follow(0.0, &options) {
+        PathEnd::Complete => Ok(()),
+        PathEnd::Blocked { by: PathBlock::Slow, load } if load < SOFT_LOADS[0] => {
+            match softened(way, false) {
+                Ok(load) => way.go(load),
+                Err(_) => way.go(0.0),
+            }
+        }
+        PathEnd::Blocked { by: PathBlock::Slow, load } => way.go(load),
+        end => way.go_on(0.0, end),
+    }
 }
 
 /// Does it come to rest somewhere, or has it at least stiffness on its way?
@@ -160,17 +188,32 @@ fn is_stable(problem: &mut Equilibrium) -> bool {
     }
 }
 
-/// To the full load with beams that are let stretch, and back to what they are.
-pub(crate) fn softened(way: &mut Way<'_>) -> bool {
-    way.problem.rest();
-    way.problem.soften(SOFT);
-    let gone = way.go(0.0).is_ok() || (creep(way.problem, LOADS[0]) && way.go(LOADS[0]).is_ok());
-    let stiff = gone && stiffened(way.problem);
-    if !stiff {
-        way.problem.soften(0.0);
+/// Under a part of the load, with beams that are let stretch and then are what they are again; the load from which the way
+/// goes on.
+///
+/// # Errors
+/// What ended it, if that is known.
+fn softened(way: &mut Way<'_>, moves: bool) -> Result<f64, Option<Ending>> {
+    for load in SOFT_LOADS {
         way.problem.rest();
+        way.problem.soften(SOFT);
+        let stands = if moves { creep(way.problem, load) } else { step_to(way.problem, load) };
+        if stands && stiffened(way.problem) {
+            return Ok(load);
+        }
+        way.problem.soften(0.0);
+        if way.problem.is_boundless() {
+            return Err(Some(Ending::Unreachable { load: 0.0, force: way.problem.largest_force() }));
+        }
     }
-    stiff
+    way.problem.rest();
+    Err(None)
+}
+
+/// From rest to a small load at once, or by creeping where that fails.
+fn step_to(problem: &mut Equilibrium, load: f64) -> bool {
+    problem.set_load(load);
+    (stand(problem) && is_stable(problem)) || creep(problem, load)
 }
 
 /// Takes back the compliance that was lent, at the present load.
@@ -183,6 +226,9 @@ fn stiffened(problem: &mut Equilibrium) -> bool {
         let next = if compliance * part < NOTHING { 0.0 } else { compliance * part };
         problem.soften(next);
         if matches!(converge(problem, &newton), NewtonEnd::Converged { .. }) {
+            if problem.is_boundless() {
+                return false;
+            }
             problem.renew();
             if next == 0.0 {
                 return is_stable(problem);

@@ -1,8 +1,8 @@
 //! The equilibrium reached from rest under proportional load.
 
+use crate::ending::Ending;
 use crate::family::Family;
 use crate::inverse::Border;
-use crate::ending::Ending;
 use crate::settle;
 use crate::way::Way;
 use flexura_equilibrium::{Equilibrium, Finish, Footing, ProblemError, Stability};
@@ -109,8 +109,8 @@ pub(crate) const CRITICAL: &str = "the equilibrium is critical: a direction give
 /// √(F/EI) L beyond which a load is taken for a mistake.
 const LARGEST_PHASE: f64 = 1e4;
 /// Work that a solve may do, in integration steps of one state: for every model, and for each span of it.
-const MOST_EFFORT: f64 = 6e7;
-const EFFORT_OF_SPAN: f64 = 6e6;
+const MOST_EFFORT: f64 = 2.5e6;
+const EFFORT_OF_SPAN: f64 = 2.5e5;
 
 impl Prepared {
     /// Prepares a model and checks that it is held.
@@ -227,7 +227,7 @@ impl Prepared {
     /// From rest to the full load, then to `tolerance`.
     pub fn solve(&mut self, tolerance: f64, progress: &mut dyn FnMut(Progress)) -> Outcome {
         self.problem.rest();
-        if self.problem.phase(1.0) > LARGEST_PHASE {
+        if self.problem.phase(1.0) > LARGEST_PHASE || self.problem.is_excessive(LARGEST_PHASE) {
             return Outcome::ended(Ending::Excessive, PathWork::default());
         }
         let most = self.most_effort();
@@ -273,7 +273,7 @@ impl Prepared {
                 error,
             ),
             Finish::Failed(NewtonEnd::Exhausted) => {
-                let ending = Ending::Work { load: 1.0, steps: path.taken + path.refused };
+                let ending = Ending::Work { load: 1.0, steps: path.taken + path.refused, crossings: path.crossings };
                 return Outcome::ended(ending, path);
             }
             Finish::Failed(NewtonEnd::Broken(Breakdown::Singular)) => (

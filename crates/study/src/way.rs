@@ -5,9 +5,9 @@
 
 use crate::Progress;
 use crate::ending::Ending;
-use flexura_continuation::{Advance, Parameters, Point, Problem, Refusal, Special, Tangent, WalkOptions, Walker};
+use flexura_continuation::{Advance, Parameters, Problem, Refusal, Special, Tangent, WalkOptions, Walker};
 use flexura_equilibrium::{Equilibrium, Stability};
-use flexura_nonlinear::{PathBlock, PathEnd, PathOptions, PathWork, System, follow_on};
+use flexura_nonlinear::{Breakdown, PathBlock, PathEnd, PathOptions, PathWork, System, follow_on};
 
 /// Mesh accuracy of a closer look.
 const CAREFUL_MESH: f64 = 1e-10;
@@ -46,8 +46,12 @@ const MOST_WALKED: usize = 2000;
 const HANDOVERS: usize = 40;
 /// Way to the edge of a law, relative to a length, at which a path counts as ending there.
 const AT_EDGE: f64 = 1e-5;
-/// Force in EI/L² from which forces count as growing beyond all bounds.
-const BOUNDLESS: f64 = 1e5;
+/// Load fractions that are the same, as a part of themselves.
+const SAME: f64 = 1e-4;
+/// Change of the state with the load, both as parts of themselves, from which a point counts as a fold; the least way (L) that
+/// the state has gone, for that.
+const STEEP: f64 = 100.0;
+const GONE: f64 = 1e-3;
 /// Step by which a direction is carried to another layout.
 const SHIFT: f64 = 1e-5;
 /// Load fraction so near the full one that it is the full one.
@@ -106,10 +110,19 @@ impl Way<'_> {
     /// # Errors
     /// What ended it; the problem stands where it ended.
     pub fn go(&mut self, from: f64) -> Result<(), Ending> {
-        let mut from = from;
-        let start = Point::here(&mut ByLoad(self.problem));
+        let end = self.follow(from, &self.options.clone());
+        self.go_on(from, end)
+    }
+
+    /// The same after the first steps from the load `start` have come to an end.
+    ///
+    /// # Errors
+    /// As [`Way::go`].
+    pub fn go_on(&mut self, start: f64, first: PathEnd) -> Result<(), Ending> {
+        let (mut from, mut end) = (start, Some(first));
         for _ in 0..HANDOVERS {
-            let (load, by) = match self.follow(from, &self.options.clone()) {
+            let end = end.take().unwrap_or_else(|| self.follow(from, &self.options.clone()));
+            let (load, by) = match end {
                 PathEnd::Complete => return Ok(()),
                 PathEnd::Singular => (from, PathBlock::Short),
                 PathEnd::Blocked { load, by } => (load, by),
@@ -120,16 +133,17 @@ impl Way<'_> {
             match self.walk(load) {
                 Walked::Complete => return Ok(()),
                 Walked::Beyond(load) => from = load,
-                Walked::Fold(load) => return Err(Ending::Fold { load, driven: self.problem.is_driven() }),
+                Walked::Fold(load) => return Err(self.fold(load)),
                 Walked::Stuck(load) if self.problem.is_exhausted() => return Err(self.tired(load)),
-                Walked::Stuck(load) => return self.again(&start, load),
+                Walked::Stuck(load) => return self.again(start, load),
             }
         }
         let load = self.problem.load_fraction();
         Err(self.tired(load))
     }
 
-    fn follow(&mut self, from: f64, options: &PathOptions) -> PathEnd {
+    /// Quick steps from the load `from`.
+    pub fn follow(&mut self, from: f64, options: &PathOptions) -> PathEnd {
         let progress = &mut *self.progress;
         let mut report =
             |load: f64, steps: usize| progress(Progress { load_fraction: load, load_steps: steps });
@@ -137,31 +151,70 @@ impl Way<'_> {
     }
 
     /// A path that neither quick steps nor the walker can follow: once more from its start, on a fine mesh, in short steps.
-    fn again(&mut self, start: &Point, reached: f64) -> Result<(), Ending> {
-        let mut before = (Vec::new(), self.problem.mesh());
-        self.problem.store(&mut before.0);
-        if start.parameters[0] == 0.0 {
-            self.problem.refine_path(CAREFUL_MESH);
-            self.problem.rest();
-            self.problem.refine_path(f64::INFINITY);
-        } else {
+    fn again(&mut self, start: f64, reached: f64) -> Result<(), Ending> {
+        if start > 0.0 || self.problem.is_boundless() {
             return Err(self.why(reached));
         }
-        match self.follow(0.0, &CAREFUL_PATH) {
-            PathEnd::Complete => Ok(()),
-            PathEnd::Blocked { load, by: PathBlock::Work } => Err(self.tired(load)),
+        let (mut before, crossings) = (self.problem.clone(), (self.work.crossing, self.work.crossings));
+        self.problem.refine_path(CAREFUL_MESH);
+        self.problem.rest();
+        self.problem.refine_path(f64::INFINITY);
+        let load = match self.follow(0.0, &CAREFUL_PATH) {
+            PathEnd::Complete => return Ok(()),
+            PathEnd::Blocked { load, by: PathBlock::Work } => return Err(self.tired(load)),
             PathEnd::Blocked { load, .. } if load > reached * (1.0 + 1e-6) => match self.walk(load) {
-                Walked::Complete => Ok(()),
-                Walked::Fold(load) => Err(Ending::Fold { load, driven: self.problem.is_driven() }),
-                Walked::Beyond(load) | Walked::Stuck(load) => Err(self.why(load)),
+                Walked::Complete => return Ok(()),
+                Walked::Fold(load) => return Err(self.fold(load)),
+                Walked::Beyond(load) | Walked::Stuck(load) => load,
             },
-            PathEnd::Blocked { load, .. } => Err(self.why(load.max(reached))),
-            PathEnd::Singular => Err(self.why(reached)),
+            PathEnd::Blocked { load, .. } => load,
+            PathEnd::Singular => 0.0,
+        };
+        // What it took for a branch point may be where it ended.
+        (self.work.crossing, self.work.crossings) = crossings;
+        if load < reached {
+            // It came less far.
+            before.set_counts(self.problem.counts());
+            *self.problem = before;
         }
+        Err(self.why(load.max(reached)))
     }
 
-    fn tired(&self, load: f64) -> Ending {
-        Ending::Work { load, steps: self.work.taken + self.work.refused }
+    fn tired(&mut self, load: f64) -> Ending {
+        if self.problem.is_boundless() {
+            return self.why(load);
+        }
+        Ending::Work { load, steps: self.work.taken + self.work.refused, crossings: self.work.crossings }
+    }
+
+    fn fold(&mut self, load: f64) -> Ending {
+        if self.work.crossing.is_some_and(|crossing| crossing > load * (1.0 - SAME)) {
+            // It was this fold.
+            (self.work.crossing, self.work.crossings) = (None, 0);
+        }
+        Ending::Fold { load, driven: self.problem.is_driven() }
+    }
+
+    /// By how much of itself the state changes when the load does, from the tangent at the present state: large next to a fold.
+    fn steepness(&mut self) -> f64 {
+        let load = self.problem.load_fraction();
+        let (mut here, mut there) = (vec![0.0; self.problem.unknowns()], vec![0.0; self.problem.unknowns()]);
+        let part = 1e-6 * load.max(1e-3);
+        let mut changes = || -> Result<(), Breakdown> {
+            self.problem.linearise()?;
+            self.problem.newton_step(&mut here);
+            self.problem.set_load(load + part);
+            self.problem.residual()?;
+            self.problem.newton_step(&mut there);
+            Ok(())
+        };
+        let changed = changes();
+        self.problem.set_load(load);
+        if changed.is_err() {
+            return 0.0;
+        }
+        let slope: Vec<f64> = there.iter().zip(&here).map(|(b, a)| (b - a) / part).collect();
+        load * self.problem.moved_by(&slope) / self.problem.gone().max(GONE)
     }
 
     /// What ends a path that is no fold, by what the present state is near to.
@@ -171,12 +224,14 @@ impl Way<'_> {
             return Ending::Boundary { load, ends };
         }
         let edges = self.problem.edges(AT_EDGE);
-        if !edges.is_empty() {
+        if edges.iter().any(|edge| self.problem.turns_back_at(edge)) {
             return Ending::Corner { load, edges };
         }
-        let force = self.problem.largest_force();
-        if force > BOUNDLESS {
-            return Ending::Unreachable { load, force };
+        if self.problem.is_boundless() {
+            return Ending::Unreachable { load, force: self.problem.largest_force() };
+        }
+        if self.steepness() > STEEP {
+            return self.fold(load);
         }
         match self.problem.loose_here() {
             Some(error) => Ending::Loss { load, what: error.message },
@@ -199,7 +254,7 @@ impl Way<'_> {
         let Ok(mut walker) = Walker::start(&mut by_load, WALK, 1.0) else { return Walked::Stuck(from) };
         let (mut clean, mut furthest) = (0, from);
         for _ in 0..MOST_WALKED {
-            if by_load.0.is_exhausted() {
+            if by_load.0.is_exhausted() || by_load.0.is_boundless() {
                 break;
             }
             let Advance::To(specials) = walker.advance(&mut by_load) else { break };
@@ -210,8 +265,9 @@ impl Way<'_> {
                 let _ = fold.point.restore(&mut by_load);
                 return Walked::Fold(fold.point.parameters[0]);
             }
-            if let Some(met) = specials.iter().find(|special| special.point.parameters[0] < 1.0) {
+            for met in specials.iter().filter(|special| special.point.parameters[0] < 1.0) {
                 self.work.crossing.get_or_insert(met.point.parameters[0]);
+                self.work.crossings += 1;
             }
             if here >= FULL {
                 return match walker.at_parameter(&mut by_load, 1.0) {
