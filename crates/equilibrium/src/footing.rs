@@ -24,7 +24,7 @@ const NOISE: f64 = 1e-11;
 /// Part of a null vector from which something counts as moved by it.
 const MOVED: f64 = 1e-6;
 /// Force, beside the loads and EI/L², from which forces count as growing beyond all bounds.
-const BOUNDLESS: f64 = 1e6;
+const BOUNDLESS: f64 = 1e7;
 /// Cost of one entry in the factorisation of a dense tangent, beside an integration step.
 const ENTRY: f64 = 1e-2;
 /// Unknowns that a row of a sparse tangent meets in its factorisation, about.
@@ -246,9 +246,10 @@ impl Equilibrium {
             .fold(0.0, f64::max)
     }
 
-    /// Have forces grown far beyond the loads?
-    pub fn is_boundless(&self) -> bool {
-        self.largest_force() > BOUNDLESS * (1.0 + self.given_force())
+    /// Have forces at the present state grown far beyond the loads?
+    pub fn is_boundless(&mut self) -> bool {
+        // What is known of forces may be that of a state that was refused.
+        self.residual().is_ok() && self.largest_force() > BOUNDLESS * (1.0 + self.given_force())
     }
 
     /// The sum of all loads, in EI/L² of the softest beam: what forces may be expected to be.

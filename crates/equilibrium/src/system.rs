@@ -405,7 +405,7 @@ impl System for Equilibrium {
     }
 
     fn is_exhausted(&self) -> bool {
-        self.effort.0 > self.effort.1 || (self.effort.1.is_finite() && self.is_boundless())
+        self.effort.0 > self.effort.1
     }
 
     fn linearise(&mut self) -> Result<(), Breakdown> {

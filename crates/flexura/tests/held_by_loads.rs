@@ -247,7 +247,7 @@ force = ["3 N", 0, 0]
     }
 }
 
-/// What no load holds is named, with the loads that were tried, and what stands firmly beside it is not.
+/// What nothing holds is named, with and without a load, and what stands firmly beside it is not.
 #[test]
 fn what_nothing_holds_is_named() {
     let loop_on_a_body = r#"
@@ -274,7 +274,6 @@ end = { body = "b", hold = "free", z = { stiffness = 1 } }
     for load in ["", "[load.l]\nbody = \"b\"\nforce = [0.1, 0, 0]\n"] {
         let message = refused(&format!("{loop_on_a_body}{load}"));
         assert!(message.contains("can move without resistance") && message.contains("body.b"), "{message}");
-        assert_eq!(message.contains("loads"), !load.is_empty(), "{message}");
     }
     let slider = WEIGHT
         .split("[spring")
@@ -282,5 +281,5 @@ end = { body = "b", hold = "free", z = { stiffness = 1 } }
         .unwrap()
         .replace("format = 1", "format = 1\ngravity = [0, 0, \"gravity\"]");
     let message = refused(&slider);
-    assert!(message.contains("joint.way") && message.contains("loads"), "{message}");
+    assert!(message.contains("joint.way"), "{message}");
 }

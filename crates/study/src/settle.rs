@@ -106,10 +106,12 @@ pub(crate) fn stands(way: &mut Way<'_>, footing: &Footing) -> Result<(), Problem
 fn tried(problem: &mut Equilibrium, error: &ProblemError) -> ProblemError {
     problem.rest();
     problem.set_load(1.0);
-    let acts = problem.unbalance().is_ok_and(|force| force > 0.0);
+    problem.nudge(PUSH);
+    // What is loose beside its place, under its loads too, is plainly loose.
+    let resists = problem.loose_here().is_none();
     problem.rest();
     let mut error = error.clone();
-    if acts {
+    if resists {
         error.message += "; nor do its loads hold it: let go under them, pushed a little and led through a damped motion, it \
                           found no equilibrium";
     }
