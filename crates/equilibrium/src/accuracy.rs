@@ -272,4 +272,9 @@ impl Equilibrium {
     pub fn weigh(&mut self) {
         self.set_weights(true);
     }
+
+    /// Measures wrenches against EI/L² and EI/L, as on the way to the full load.
+    pub fn weigh_for_the_way(&mut self) {
+        self.set_weights(false);
+    }
 }

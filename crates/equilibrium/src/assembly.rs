@@ -27,6 +27,9 @@ use flexura_spatial::{Twist, Vector3, Wrench, log};
 
 type V = Vector3<f64>;
 
+/// What carrying a state with its derivatives costs beside carrying it alone.
+const COLUMNS: f64 = 6.0;
+
 pub(crate) fn unit(i: usize) -> V {
     let mut e = V::zeros();
     e[i] = 1.0;
@@ -120,6 +123,8 @@ impl Equilibrium {
     }
 
     fn evaluate_span(&mut self, span: usize, sink: &mut Sink<'_>) -> Result<(), Breakdown> {
+        let columns = if sink.matrix.is_some() { COLUMNS } else { 1.0 };
+        self.effort.0 += columns * self.meshes[span].steps() as f64;
         let held = self.start_hold(span);
         let wrench = self.start_wrench(span);
         let head = plain(&held.target, &wrench);

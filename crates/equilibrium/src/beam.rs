@@ -52,6 +52,8 @@ pub(crate) struct BeamLaw {
     pub softest: f64,
     /// Largest of the compliances in stretching and shear, SI.
     yielding: f64,
+    /// Compliance in stretching besides that of the section, SI; zero but on the way to an equilibrium.
+    softening: f64,
     /// Nondimensional units of force and moment of this beam, EI/L² and EI/L of its softest bending.
     pub wrench_unit: [f64; 2],
 }
@@ -79,6 +81,7 @@ impl BeamLaw {
             scale: Scale { length: 1.0, force: 1.0 },
             softest: 0.0,
             yielding: 0.0,
+            softening: 0.0,
             founded: Founded::new(&beam, length)?,
             wrench_unit: [1.0; 2],
             shape,
@@ -196,10 +199,20 @@ impl BeamLaw {
 
     /// The law at `s`, SI. NaN where an expression gives no sound section: Newton then refuses the state.
     pub fn law_at(&self, s: f64) -> LocalLaw {
-        self.try_law_at(s).unwrap_or_else(|_| LocalLaw {
+        let mut law = self.try_law_at(s).unwrap_or_else(|_| LocalLaw {
             k0: Vector3::repeat(f64::NAN),
             compliance: Compliance::Diagonal([f64::NAN; 6]),
-        })
+        });
+        match &mut law.compliance {
+            Compliance::Diagonal(diagonal) => diagonal[0] += self.softening,
+            Compliance::Full(rows) => rows[0][0] += self.softening,
+        }
+        law
+    }
+
+    /// Lets the beam stretch more than its section does, 1/N.
+    pub fn soften(&mut self, compliance: f64) {
+        self.softening = compliance;
     }
 
     /// Distributed load at `s`, SI, gravity among it.

@@ -76,6 +76,13 @@ impl Coordinates {
         if self.spin_held.is_some() { 2 } else { self.free.len() }
     }
 
+    /// Is a coordinate driven to a value that is not its initial one?
+    pub fn is_driven(&self) -> bool {
+        let start = self.joint.coordinates(&self.initial);
+        let moved = |(law, start): (&CoordinateLaw, f64)| matches!(law.drive, Drive::Driven { coordinate } if coordinate != start);
+        self.laws.iter().zip(start).any(moved)
+    }
+
     /// Which of the unknown coordinates coordinate `i` is; None where it is driven.
     pub fn unknown_of(&self, i: usize) -> Option<usize> {
         self.free.iter().position(|free| *free == i)
@@ -237,6 +244,15 @@ impl Coordinates {
             }
         }
         q
+    }
+
+    /// Is one of these coordinates within `near` of where a limit begins to push?
+    pub fn is_at_limit(&self, q: &[f64; MAX_FREEDOMS], load: f64, near: f64) -> bool {
+        let start = self.joint.coordinates(&self.initial);
+        self.laws.iter().enumerate().any(|(i, law)| {
+            let pushes = |q: f64| push(law, q, start[i], load).is_some();
+            matches!(law.drive, Drive::Free { .. }) && pushes(q[i] - near) != pushes(q[i] + near)
+        })
     }
 
     /// Coordinates that lie outside their limits: number, value and range, SI.

@@ -5,7 +5,7 @@ use crate::held::HoldRef;
 use crate::lower::RopeLaw;
 use crate::shooting::{Pull, SegmentEnd};
 use crate::system::{Equilibrium, read_pose};
-use flexura_mechanics::joint::Kinematics;
+use flexura_mechanics::joint::{Kinematics, MAX_FREEDOMS};
 use flexura_mechanics::spring::{SpringForce, constant_tension};
 use flexura_spatial::{Vector3, Wrench, log};
 
@@ -101,7 +101,8 @@ impl Equilibrium {
         }
     }
 
-    /// A drag that holds every node back to where it was: `-κ` times its turning and shift since.
+    /// A drag that holds every node back to where it was: `-κ` times its turning and shift since; and coordinates too, if
+    /// they are held back.
     pub(crate) fn evaluate_drag(&self, sink: &mut Sink<'_>) {
         let (anchors, strength) = &self.drag;
         for (anchor, slot) in anchors.iter().zip(&self.layout.nodes) {
@@ -111,6 +112,15 @@ impl Equilibrium {
             sink.add_residual(slot.unknown + 3, &((anchor.position - pose.position) * *strength));
             for i in 0..6 {
                 sink.add_number(slot.unknown + i, slot.unknown + i, -strength);
+            }
+        }
+        for ((coordinates, slot), anchor) in self.coordinate_slots().zip(&self.held_back) {
+            let mut gone = [0.0; MAX_FREEDOMS];
+            coordinates.step(anchor, &self.configuration(slot), &mut gone[..slot.count]);
+            for (i, gone) in gone.iter().enumerate().take(slot.count) {
+                // Here a row is minus the effort that acts.
+                sink.r[slot.unknown + i] += strength * gone;
+                sink.add_number(slot.unknown + i, slot.unknown + i, *strength);
             }
         }
     }

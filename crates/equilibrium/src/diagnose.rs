@@ -4,7 +4,7 @@ use crate::error::ProblemError;
 use crate::lower::{JointOrigin, NodeOrigin};
 use crate::system::Equilibrium;
 use flexura_model::CoordinateKind;
-use flexura_nonlinear::{Breakdown, Matrix, System};
+use flexura_nonlinear::Matrix;
 use nalgebra::DMatrix;
 
 /// What the model is: unknowns against equations.
@@ -25,7 +25,7 @@ const RANK: f64 = 1e-11;
 pub(crate) const SEEN: f64 = 1e-6;
 
 /// Unknowns up to which a null space is found by a dense decomposition.
-const LARGEST_DENSE: usize = 600;
+pub(crate) const LARGEST_DENSE: usize = 600;
 
 /// Width over thickness from which a strip counts as wide.
 const WIDE: f64 = 10.0;
@@ -137,27 +137,6 @@ impl Equilibrium {
         warnings
     }
 
-    /// Checks at rest that nothing is loose and nothing is held twice.
-    ///
-    /// # Errors
-    /// Names the bodies and coordinates that can move without resistance, or the joints and ends whose
-    /// reactions cannot be told apart.
-    pub fn check_held(&mut self) -> Result<(), ProblemError> {
-        self.rest();
-        self.set_load(0.0);
-        match self.linearise() {
-            // Whoever asked for the end is heard by the study.
-            Ok(()) | Err(Breakdown::Interrupted) => Ok(()),
-            Err(Breakdown::Singular) if self.find_slack() => Ok(()),
-            Err(Breakdown::Singular) => Err(self.explain_singular()),
-            Err(Breakdown::NotFinite) => Err(ProblemError::new(
-                "model",
-                "gives numbers that are not finite at rest",
-                "look for stiffnesses or lengths that are many orders of magnitude apart",
-            )),
-        }
-    }
-
     /// An orthonormal basis of the null space of the tangent at the present state.
     pub(crate) fn null_space(&mut self) -> Vec<Vec<f64>> {
         // A factorised matrix is spoilt; evaluate it once more and leave it whole.
@@ -172,9 +151,9 @@ impl Equilibrium {
     }
 
     /// The null space of the tangent, in the model's words.
-    pub(crate) fn explain_singular(&mut self) -> ProblemError {
-        let motion = self.null_space().into_iter().fold(vec![0.0_f64; self.layout.interface], |mut m, v| {
-            m.iter_mut().zip(&v).for_each(|(m, v)| *m = m.max(v.abs()));
+    pub(crate) fn explain_singular(&self, null: &[Vec<f64>]) -> ProblemError {
+        let motion = null.iter().fold(vec![0.0_f64; self.layout.interface], |mut m, v| {
+            m.iter_mut().zip(v).for_each(|(m, v)| *m = m.max(v.abs()));
             m
         });
         let part = |unknown: usize, count: usize| {

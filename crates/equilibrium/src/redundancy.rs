@@ -56,12 +56,23 @@ impl Equilibrium {
             return false;
         }
         let names: Vec<String> = (0..named.len()).filter(|j| named[*j]).map(|j| self.joint_name(j)).collect();
-        self.lowered.warnings.push(format!(
+        self.redundancy = Some(format!(
             "{} hold each other more often than the loop needs; it closes nonetheless, and among all forces in balance \
              those of least norm are given",
             names.join(", ")
         ));
+        self.lowered.warnings.extend(self.redundancy.clone());
+        self.held_twice = names;
         true
+    }
+
+    /// Takes back the warning that a loop closes though it is held too often: under load it does not. Returns the names of what
+    /// holds it.
+    pub fn withdraw_redundancy(&mut self) -> Vec<String> {
+        if let Some(warning) = self.redundancy.take() {
+            self.lowered.warnings.retain(|other| *other != warning);
+        }
+        self.held_twice.clone()
     }
 
     /// Replaces the wrenches of joints by those of least norm.

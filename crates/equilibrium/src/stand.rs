@@ -3,7 +3,7 @@
 use crate::lower::{JointOrigin, NodeOrigin};
 use crate::mesh::Level;
 use crate::system::{Equilibrium, write_pose};
-use flexura_mechanics::joint::Kinematics;
+use flexura_mechanics::joint::{Kinematics, MAX_FREEDOMS};
 use flexura_nonlinear::System;
 use flexura_solution::{BeamSample, Solution};
 use flexura_spatial::{Pose, Vector3, Wrench};
@@ -176,16 +176,31 @@ impl Equilibrium {
     pub fn set_drag(&mut self, strength: f64) {
         let poses = self.layout.nodes.iter().map(|slot| crate::system::read_pose(&self.x, slot.state));
         self.drag = if strength > 0.0 { (poses.collect(), strength) } else { (Vec::new(), 0.0) };
+        self.held_back.clear();
     }
 
-    /// How far the nodes have gone against the drag: the largest shift over L, or turning in radians.
+    /// The same, with a drag on the coordinates of all joints and holds too, so that nothing moves without resistance.
+    pub fn set_whole_drag(&mut self, strength: f64) {
+        self.set_drag(strength);
+        if strength > 0.0 {
+            self.held_back = self.coordinate_slots().map(|(_, slot)| self.configuration(slot)).collect();
+        }
+    }
+
+    /// How far nodes and coordinates have gone against the drag: the largest shift over L, or turning in radians.
     pub fn dragged(&self) -> f64 {
         let poses = self.layout.nodes.iter().map(|slot| crate::system::read_pose(&self.x, slot.state));
         let each = poses.zip(&self.drag.0).map(|(pose, anchor)| {
             let turn = pose.rotation.angle_to(&anchor.rotation);
             (pose.position - anchor.position).norm().max(turn)
         });
-        each.fold(0.0, f64::max)
+        let coordinates =
+            self.coordinate_slots().zip(&self.held_back).map(|((coordinates, slot), anchor)| {
+                let mut gone = [0.0; MAX_FREEDOMS];
+                coordinates.step(anchor, &self.configuration(slot), &mut gone[..slot.count]);
+                gone.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()))
+            });
+        coordinates.fold(each.fold(0.0, f64::max), f64::max)
     }
 
     /// Number of nodes, and how strong a wrench bends what is tied to each: force and moment, nondimensional.

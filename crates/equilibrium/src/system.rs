@@ -56,10 +56,19 @@ pub struct Equilibrium {
     pub(crate) tips: Vec<crate::tubes::Tip>,
     /// For each joint the closure rows without which its loop closes already; empty where every row is needed.
     pub(crate) slack: Vec<[bool; 6]>,
+    /// The warning about loops that are held more often than they need, and what holds them.
+    pub(crate) redundancy: Option<String>,
+    pub(crate) held_twice: Vec<String>,
     /// Wrenches on the nodes besides the loads, in proportion to these, and how much of them acts: (moment, force) of each node.
     pub(crate) kick: (Vec<[Vector3<f64>; 2]>, f64),
     /// Poses of the nodes that a drag holds on to, and how strongly.
     pub(crate) drag: (Vec<Pose>, f64),
+    /// Configurations that the drag also holds on to, one for each joint and hold; empty where it does not.
+    pub(crate) held_back: Vec<Configuration>,
+    /// Compliance in stretching that all beams have besides their own.
+    pub(crate) softening: f64,
+    /// Work done since a limit was set, and that limit.
+    pub(crate) effort: (f64, f64),
     pub(crate) forced_segments: Option<usize>,
     pub(crate) finest_path: f64,
     pub(crate) counts: Counts,
@@ -124,8 +133,13 @@ impl Equilibrium {
             tube_steps: Vec::new(),
             tips: Vec::new(),
             slack: Vec::new(),
+            redundancy: None,
+            held_twice: Vec::new(),
             kick: (Vec::new(), 0.0),
             drag: (Vec::new(), 0.0),
+            held_back: Vec::new(),
+            softening: 0.0,
+            effort: (0.0, f64::INFINITY),
             forced_segments: None,
             finest_path: f64::INFINITY,
             counts: Counts::default(),
@@ -321,7 +335,7 @@ impl Equilibrium {
     }
 
     /// Every joint and hold with where its configuration lies.
-    fn coordinate_slots(&self) -> impl Iterator<Item = (&Coordinates, &CoordinateSlot)> {
+    pub(crate) fn coordinate_slots(&self) -> impl Iterator<Item = (&Coordinates, &CoordinateSlot)> {
         let holds = self.lowered.spans.iter().zip(&self.layout.spans).flat_map(|(span, slots)| {
             let end = span.end.as_ref().map(|end| (&end.coordinates, &slots.end));
             std::iter::once((&span.start.coordinates, &slots.start)).chain(end)
@@ -397,11 +411,16 @@ impl System for Equilibrium {
         self.evaluate(false)
     }
 
+    fn is_exhausted(&self) -> bool {
+        self.effort.0 > self.effort.1
+    }
+
     fn linearise(&mut self) -> Result<(), Breakdown> {
         if self.is_interrupted() {
             return Err(Breakdown::Interrupted);
         }
         self.counts.factorisations += 1;
+        self.effort.0 += self.cost_of_factorising();
         self.factorised = false;
         self.evaluate(true)?;
         self.lifted_by = 0.0;

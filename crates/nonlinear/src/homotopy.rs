@@ -35,6 +35,12 @@ pub struct PathOptions {
     pub largest_deviation: f64,
     /// Most steps, taken and refused.
     pub steps: usize,
+    /// Give up where det J keeps changing its sign, so that another method can look closer at what is passed there?
+    pub leaves_crossings: bool,
+    /// In so many steps the load fraction must grow by [`PathOptions::least_growth`], or the path counts as blocked.
+    pub patience: usize,
+    /// See [`PathOptions::patience`].
+    pub least_growth: f64,
 }
 
 impl Default for PathOptions {
@@ -51,6 +57,9 @@ impl Default for PathOptions {
             crossing_step: 1e-6,
             largest_deviation: 0.5,
             steps: 5000,
+            leaves_crossings: true,
+            patience: 300,
+            least_growth: 2e-3,
         }
     }
 }
@@ -60,23 +69,32 @@ impl Default for PathOptions {
 pub enum PathEnd {
     /// At the full load.
     Complete,
-    /// Before it: no shorter step was possible.
-    Stalled {
+    /// Before it.
+    Blocked {
         /// Load fraction reached.
         load: f64,
+        /// By what.
+        by: Block,
     },
-    /// Before it: too many steps.
-    StepLimit {
-        /// Load fraction reached.
-        load: f64,
-    },
-    /// The tangent has no inverse at rest.
-    SingularAtRest,
-    /// Before it: somebody asked for the end.
-    Interrupted {
-        /// Load fraction reached.
-        load: f64,
-    },
+    /// The tangent has no inverse at the start.
+    Singular,
+}
+
+/// What keeps a path from going on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Block {
+    /// No shorter step was possible.
+    Short,
+    /// Steps across do not agree on the sign of det J: a branch point, or something steep.
+    Crossing,
+    /// Many steps led nearly nowhere.
+    Slow,
+    /// Too many steps.
+    Steps,
+    /// The system has done more work than it may.
+    Work,
+    /// Somebody asked for the end.
+    Interrupted,
 }
 
 /// A first correction that is never too large: where the response is small for reasons of symmetry, curvature is
@@ -88,11 +106,18 @@ const SAME: f64 = 1e-9;
 
 /// One try at a point of the path.
 enum Try {
-    Good { first: f64 },
-    Far { first: f64 },
+    Good {
+        first: f64,
+    },
+    Far {
+        first: f64,
+    },
     NotContracting,
     Broken,
+    /// The first step points away from that by the last point's tangent.
     Crossed,
+    /// The sign of det J is another one than at the last point.
+    Flipped,
 }
 
 /// Counts of a path.
@@ -104,12 +129,22 @@ pub struct PathWork {
     pub refused: usize,
     /// Load fraction at which det J first changed sign: a branch point.
     pub crossing: Option<f64>,
+    /// Number of branch points that were passed, as far as they were seen.
+    pub crossings: usize,
 }
 
+#[derive(Clone)]
 struct Point {
     load: f64,
     state: Vec<f64>,
 }
+
+/// Refusals in a row, and how short steps have become by then beside the longest taken, from which such a path gives up too.
+const REFUSALS: usize = 4;
+const SHRUNK: f64 = 1e-3;
+
+/// Sign changes of det J in a row from which a path that leaves them to others gives up.
+const FLIPS: usize = 2;
 
 /// Leads `system` from its solution at load 0, where its state must be, to load 1.
 ///
@@ -119,32 +154,53 @@ pub fn follow(
     options: &PathOptions,
     progress: &mut dyn FnMut(f64, usize),
 ) -> (PathEnd, PathWork) {
+    let mut work = PathWork::default();
+    let end = follow_on(system, 0.0, options, &mut work, progress);
+    (end, work)
+}
+
+/// Leads `system` from its solution at the load fraction `from`, where its state must be, to load 1. Where the path is
+/// blocked, the state is the last point that was reached.
+pub fn follow_on(
+    system: &mut impl System,
+    from: f64,
+    options: &PathOptions,
+    work: &mut PathWork,
+    progress: &mut dyn FnMut(f64, usize),
+) -> PathEnd {
     let n = system.unknowns();
     let mut step = vec![0.0; n];
-    let mut work = PathWork::default();
     let mut points: Vec<Point> = Vec::with_capacity(4);
-    points.push(Point { load: 0.0, state: snapshot(system) });
-
-    // The response to a small part of the load is the tangent of the path at rest.
-    let mut response = vec![0.0; n];
-    let mut orientation = match rest_response(system, &mut step, &mut response) {
-        Some(orientation) => orientation,
-        None if system.is_interrupted() => return (PathEnd::Interrupted { load: 0.0 }, work),
-        None => return (PathEnd::SingularAtRest, work),
+    points.push(Point { load: from, state: snapshot(system) });
+    let Some((response, mut orientation)) = first_response(system, &mut points[0], &mut step) else {
+        return PathEnd::Singular;
     };
-    system.expect(&response);
-    let mut width = (options.first_response / system.size(&response)).min(1.0);
+    if from == 0.0 {
+        system.expect(&response);
+    }
+    let mut width = (options.first_response / system.size(&response)).min(1.0 - from);
     let mut slope = Some(response);
+    let before = work.taken + work.refused;
+    let (mut flips, mut flip_width) = (0, 0.0);
+    let (mut refusals, mut longest) = (0, 0.0_f64);
+    let mut mark = (before, from);
 
-    while work.taken + work.refused < options.steps {
+    while work.taken + work.refused < before + options.steps {
         let last = points[points.len() - 1].load;
         if last >= 1.0 {
-            return (PathEnd::Complete, work);
+            return PathEnd::Complete;
+        }
+        if work.taken + work.refused >= mark.0 + options.patience {
+            if last < mark.1 + options.least_growth {
+                return blocked(system, &points, options, Block::Slow);
+            }
+            mark = (work.taken + work.refused, last);
+        }
+        if system.is_exhausted() {
+            return blocked(system, &points, options, Block::Work);
         }
         if system.is_interrupted() {
-            system.set_load(last);
-            system.restore(&points[points.len() - 1].state);
-            return (PathEnd::Interrupted { load: last }, work);
+            return blocked(system, &points, options, Block::Interrupted);
         }
         let mut load = (last + width).min(1.0);
         let furthest = system.phase(last) + options.largest_phase;
@@ -176,23 +232,33 @@ pub fn follow(
         system.set_load(load);
         let may_cross = width <= options.crossing_step * load;
         let reach = options.largest_correction.min(options.largest_deviation * system.size(&step)).max(SMALL);
-        let mut outcome = try_point(system, options, !may_cross, reach, &mut step);
+        let sign = (!may_cross).then_some(orientation);
+        let outcome = try_point(system, options, sign, reach, &mut step);
         if matches!(outcome, Try::Good { .. }) && system.orientation() != orientation {
-            if may_cross {
-                orientation = system.orientation();
-                work.crossing.get_or_insert(load);
-            } else {
-                outcome = Try::Crossed;
+            orientation = system.orientation();
+            work.crossing.get_or_insert(load);
+            work.crossings += 1;
+        }
+        if matches!(outcome, Try::Flipped) {
+            flips += 1;
+            flip_width = if flips == 1 { width } else { flip_width };
+            if options.leaves_crossings && flips >= FLIPS {
+                work.refused += 1;
+                return blocked(system, &points, options, Block::Crossing);
             }
         }
         let growth = match outcome {
             Try::Good { first } => {
                 work.taken += 1;
+                (refusals, longest) = (0, longest.max(width));
+                if width >= flip_width {
+                    flips = 0;
+                }
                 if system.renew() {
                     points.clear();
                     step = vec![0.0; system.unknowns()];
                     if system.linearise().is_err() {
-                        return (PathEnd::Stalled { load }, work);
+                        return PathEnd::Blocked { load, by: Block::Short };
                     }
                 } else if points.len() == 4 {
                     points.remove(0);
@@ -205,20 +271,20 @@ pub fn follow(
             }
             Try::Far { first } => {
                 work.refused += 1;
+                refusals += 1;
                 width * (0.5 * reach / first).powf(1.0 / order.max(1) as f64).clamp(0.1, 0.6)
             }
-            Try::NotContracting | Try::Broken | Try::Crossed => {
+            Try::NotContracting | Try::Broken | Try::Crossed | Try::Flipped => {
                 work.refused += 1;
+                refusals += 1;
                 0.4 * width
             }
         };
         width = growth;
         let reached = &points[points.len() - 1];
-        if reached.load < 1.0 && width < options.shortest_step {
-            let load = reached.load;
-            system.set_load(load);
-            system.restore(&reached.state);
-            return (PathEnd::Stalled { load }, work);
+        let short = options.leaves_crossings && refusals >= REFUSALS && width < SHRUNK * longest;
+        if reached.load < 1.0 && (short || width < options.shortest_step) {
+            return blocked(system, &points, options, Block::Short);
         }
         if reached.load < load {
             // Refused. Points far apart say little about a sharp bend; the tangent at the last point does.
@@ -229,10 +295,32 @@ pub fn follow(
             system.restore(&points[newest].state);
         }
     }
-    let reached = &points[points.len() - 1];
+    if points[points.len() - 1].load >= 1.0 {
+        return PathEnd::Complete;
+    }
+    blocked(system, &points, options, Block::Steps)
+}
+
+/// The end of a path at its last point, to which the system goes back; at one a few steps before, if another method is to go on
+/// from there, for what blocks a path spoils the points next to it.
+fn blocked(system: &mut impl System, points: &[Point], options: &PathOptions, by: Block) -> PathEnd {
+    let first = options.leaves_crossings && by != Block::Interrupted;
+    let reached = if first { &points[0] } else { &points[points.len() - 1] };
     system.set_load(reached.load);
     system.restore(&reached.state);
-    (PathEnd::StepLimit { load: reached.load }, work)
+    PathEnd::Blocked { load: reached.load, by }
+}
+
+/// The tangent of the path at its first point, and the sign of det J there. None where J has no inverse.
+fn first_response(system: &mut impl System, point: &mut Point, step: &mut [f64]) -> Option<(Vec<f64>, bool)> {
+    if point.load > 0.0 {
+        let slope = tangent_at(system, point, step)?;
+        return Some((slope, system.orientation()));
+    }
+    // The response to a small part of the load is the tangent of the path at rest.
+    let mut response = vec![0.0; step.len()];
+    let orientation = rest_response(system, step, &mut response)?;
+    Some((response, orientation))
 }
 
 /// The tangent of the path at rest, and the sign of det J there. None where J has no inverse.
@@ -303,19 +391,19 @@ fn predict(system: &impl System, points: &[Point], load: f64, step: &mut [f64]) 
     }
 }
 
-/// Newton from the predicted point. With `compare`, its first step must agree in direction with the step by the
-/// tangent of the last point: between two points of one path the tangent changes little, but where an
+/// Newton from the predicted point. With a `sign` that det J must have, its first step must also agree in direction with the
+/// step by the tangent of the last point: between two points of one path the tangent changes little, but where an
 /// eigenvalue has changed sign in between, the two steps point away from each other. Unlike the sign of the
 /// determinant this also sees two eigenvalues that change sign together, as they do for a round column.
 fn try_point(
     system: &mut impl System,
     options: &PathOptions,
-    compare: bool,
+    sign: Option<bool>,
     reach: f64,
     step: &mut [f64],
 ) -> Try {
     let mut first = None;
-    let mut other = vec![0.0; if compare { step.len() } else { 0 }];
+    let mut other = vec![0.0; if sign.is_some() { step.len() } else { 0 }];
     for _ in 0..4 {
         if system.linearise().is_err() {
             return Try::Broken;
@@ -326,7 +414,10 @@ fn try_point(
         if !before.is_finite() || first > reach {
             return Try::Far { first: if before.is_finite() { first } else { 1e3 } };
         }
-        if compare && other.len() == step.len() && before > SAME {
+        if sign.is_some_and(|sign| sign != system.orientation()) {
+            return Try::Flipped;
+        }
+        if other.len() == step.len() && before > SAME {
             system.kept_step(&mut other);
             let along = system.product(step, &other);
             let lengths = (system.product(step, step) * system.product(&other, &other)).sqrt();

@@ -16,7 +16,7 @@ mod system;
 pub use chain::{BLOCK, Block, Chain};
 pub use deflation::converge_deflated;
 pub use dense::Dense;
-pub use homotopy::{PathEnd, PathOptions, PathWork, follow};
+pub use homotopy::{Block as PathBlock, PathEnd, PathOptions, PathWork, follow, follow_on};
 pub use interrupt::Interrupt;
 pub use matrix::Matrix;
 pub use newton::{NewtonEnd, NewtonOptions, converge};

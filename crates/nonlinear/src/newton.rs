@@ -34,6 +34,8 @@ pub enum NewtonEnd {
     NoDescent,
     /// Too many corrections.
     IterationLimit,
+    /// The system has done more work than it may.
+    Exhausted,
     /// The residual or tangent could not be had.
     Broken(Breakdown),
 }
@@ -67,6 +69,9 @@ pub fn converge(system: &mut impl System, options: &NewtonOptions) -> NewtonEnd 
         if size <= options.tolerance {
             system.retract(&step);
             return NewtonEnd::Converged { correction: size, contraction: rate };
+        }
+        if system.is_exhausted() {
+            return NewtonEnd::Exhausted;
         }
         system.store(&mut kept);
         loop {

@@ -82,6 +82,11 @@ pub trait System {
     /// Called where a point of the path is reached: lets the system renew its discretisation there. True if
     /// states stored before no longer fit.
     fn renew(&mut self) -> bool;
+
+    /// Has more work been done than the caller allows?
+    fn is_exhausted(&self) -> bool {
+        false
+    }
 }
 
 /// One entry of the tangent to which a number is added, so that it has an inverse where the tangent itself has none.

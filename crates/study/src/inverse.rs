@@ -88,6 +88,7 @@ impl Prepared {
             return Outcome {
                 status: Status::Stalled,
                 reason: Some(error.message),
+                ending: None,
                 error_estimate: f64::NAN,
                 path: flexura_nonlinear::PathWork::default(),
             };
@@ -95,6 +96,7 @@ impl Prepared {
         let start = Outcome {
             status: Status::Converged,
             reason: None,
+            ending: None,
             error_estimate: f64::NAN,
             path: flexura_nonlinear::PathWork { taken: 1, ..Default::default() },
         };

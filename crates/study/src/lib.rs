@@ -1,13 +1,17 @@
 //! What can be done with a model. Each study returns a `Solution`.
 
+mod ending;
 mod family;
 mod inverse;
 mod motion;
 mod search;
 mod sensitivity;
+mod settle;
 mod solve;
 mod trace;
+mod way;
 
+pub use ending::Ending;
 pub use family::Family;
 pub use flexura_equilibrium::{Census, Equilibrium, Interrupt, ProblemError};
 pub use motion::{MotionProgress, inverse_dynamics};
@@ -23,7 +27,6 @@ use flexura_model::Model;
 /// # Errors
 /// Names what is loose, held twice or without sound numbers.
 pub fn check(model: &Model) -> Result<Census, ProblemError> {
-    let mut problem = Equilibrium::new(model)?;
-    problem.check_held()?;
-    Ok(problem.census())
+    let mut prepared = Prepared::new(model)?;
+    Ok(prepared.problem().census())
 }

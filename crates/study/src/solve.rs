@@ -1,11 +1,14 @@
 //! The equilibrium reached from rest under proportional load.
 
+use crate::ending::Ending;
 use crate::family::Family;
 use crate::inverse::Border;
 use crate::sensitivity;
-use flexura_equilibrium::{Equilibrium, Finish, Interrupt, ProblemError, Stability};
+use crate::settle;
+use crate::way::Way;
+use flexura_equilibrium::{Equilibrium, Finish, Footing, Interrupt, ProblemError, Stability};
 use flexura_model::{BeamPoint, LoadId, Model, Output, ProbeTarget, Quantity};
-use flexura_nonlinear::{Breakdown, NewtonEnd, PathEnd, PathOptions, PathWork, System, follow};
+use flexura_nonlinear::{Breakdown, NewtonEnd, PathOptions, PathWork, System};
 use flexura_solution::{Solution, Status};
 use flexura_spatial::Vector3;
 
@@ -56,6 +59,8 @@ pub struct Prepared {
     pub(crate) path: PathOptions,
     /// Derivatives along the unknown parameters, from the last correction of an inverse problem.
     pub(crate) border: Option<Border>,
+    /// How it stands at rest.
+    pub(crate) footing: Footing,
 }
 
 /// What a light solution is for.
@@ -72,10 +77,30 @@ pub struct Outcome {
     pub status: Status,
     /// Why it did not converge, and what to try.
     pub reason: Option<String>,
+    /// What ended the way to the full load before it.
+    pub ending: Option<Ending>,
     /// Estimated largest error.
     pub error_estimate: f64,
     /// Load steps.
     pub path: PathWork,
+}
+
+impl Outcome {
+    /// The way ended before the full load.
+    fn ended(ending: Ending, path: PathWork) -> Self {
+        Self {
+            status: ending.status(),
+            reason: Some(ending.to_string()),
+            ending: Some(ending),
+            error_estimate: f64::NAN,
+            path,
+        }
+    }
+
+    /// At the full load, but not as it should be.
+    pub(crate) fn without(status: Status, reason: String, error_estimate: f64, path: PathWork) -> Self {
+        Self { status, reason: Some(reason), ending: None, error_estimate, path }
+    }
 }
 
 /// Size of the first Newton correction up to which a known state counts as near.
@@ -93,22 +118,9 @@ pub(crate) const CRITICAL: &str = "the equilibrium is critical: a direction give
 
 /// √(F/EI) L beyond which a load is taken for a mistake.
 const LARGEST_PHASE: f64 = 1e4;
-/// Mesh accuracy of a second look at a path that seemed to end.
-const CAREFUL_MESH: f64 = 1e-9;
-/// How the second look is taken.
-const CAREFUL_PATH: PathOptions = PathOptions {
-    first_response: 0.4,
-    largest_correction: 0.3,
-    largest_contraction: 0.3,
-    least_agreement: 0.7,
-    largest_phase: 1.0,
-    point_tolerance: 1e-4,
-    largest_turning: 0.7,
-    shortest_step: 1e-11,
-    crossing_step: 1e-7,
-    largest_deviation: 0.3,
-    steps: 20_000,
-};
+/// Work that a solve may do, in integration steps of one state: for every model, and for each span of it.
+const MOST_EFFORT: f64 = 2.5e6;
+const EFFORT_OF_SPAN: f64 = 2.5e5;
 
 impl Prepared {
     /// Prepares a model and checks that it is held.
@@ -125,8 +137,29 @@ impl Prepared {
     /// As [`Prepared::new`].
     pub fn with_probes(model: &Model, probes: &[BeamPoint]) -> Result<Self, ProblemError> {
         let mut problem = Equilibrium::with_probes(model, probes)?;
-        problem.check_held()?;
-        Ok(Self { problem, path: PathOptions::default(), border: None })
+        let footing = problem.footing()?;
+        let mut this = Self { problem, path: PathOptions::default(), border: None, footing };
+        if this.footing != Footing::Firm {
+            this.check_start()?;
+        }
+        Ok(this)
+    }
+
+    /// Checks that a mechanism that does not stand firmly at rest can be started all the same.
+    fn check_start(&mut self) -> Result<(), ProblemError> {
+        let mut problem = self.problem.clone();
+        problem.allow_effort(self.most_effort());
+        let mut way = Way {
+            problem: &mut problem,
+            options: self.path,
+            work: PathWork::default(),
+            progress: &mut |_| {},
+        };
+        settle::stands(&mut way, &self.footing)
+    }
+
+    fn most_effort(&self) -> f64 {
+        MOST_EFFORT + EFFORT_OF_SPAN * self.problem.spans() as f64
     }
 
     /// The model as it stands: of an inverse problem with the values found.
@@ -141,12 +174,7 @@ impl Prepared {
 
     /// Where a solve from rest was ended.
     pub(crate) fn interrupted(&self, path: PathWork) -> Outcome {
-        Outcome {
-            status: Status::Interrupted,
-            reason: Some(format!("interrupted at {:.4} % of the load", 100.0 * self.problem.load_fraction())),
-            error_estimate: f64::NAN,
-            path,
-        }
+        Outcome::ended(Ending::Interrupted { load: self.problem.load_fraction() }, path)
     }
 
     /// Puts a neighbouring model, made of the same parts, under the present state, to be solved from there.
@@ -219,76 +247,23 @@ impl Prepared {
     /// From rest to the full load, then to `tolerance`.
     pub fn solve(&mut self, tolerance: f64, progress: &mut dyn FnMut(Progress)) -> Outcome {
         self.problem.rest();
-        let mut report =
-            |load: f64, steps: usize| progress(Progress { load_fraction: load, load_steps: steps });
-        if self.problem.phase(1.0) > LARGEST_PHASE {
-            return Outcome {
-                status: Status::IterationLimit,
-                reason: Some(
-                    "the load is more than a hundred million times EI/L²; check its unit and the section's dimensions"
-                        .to_string(),
-                ),
-                error_estimate: f64::NAN,
-                path: PathWork::default(),
-            };
+        if self.problem.phase(1.0) > LARGEST_PHASE || self.problem.is_excessive(LARGEST_PHASE) {
+            return Outcome::ended(Ending::Excessive, PathWork::default());
         }
-        let (mut end, mut path) = follow(&mut self.problem, &self.path, &mut report);
-        if let PathEnd::Stalled { load: before } = end {
-            // A coarse mesh can end a path that the beam itself does not: look again with a fine one.
-            self.problem.refine_path(CAREFUL_MESH);
-            self.problem.rest();
-            let mut again = follow(&mut self.problem, &CAREFUL_PATH, &mut report);
-            self.problem.refine_path(f64::INFINITY);
-            if matches!(again.0, PathEnd::Stalled { load } if load < before) {
-                // It came less far: the first look is the better answer.
-                self.problem.rest();
-                again = follow(&mut self.problem, &self.path, &mut report);
-            }
-            (end, path) = (again.0, PathWork { refused: path.refused + again.1.refused, ..again.1 });
-        }
-        match end {
-            PathEnd::Complete => self.finish(tolerance, path, f64::INFINITY),
-            PathEnd::Stalled { load } => Outcome {
-                status: Status::Stalled,
-                reason: Some(self.why_stalled(load)),
-                error_estimate: f64::NAN,
-                path,
-            },
-            PathEnd::StepLimit { load } => Outcome {
-                status: Status::IterationLimit,
-                reason: Some(format!(
-                    "{} load steps led to {:.4} % of the load only; look for stiffnesses that are many orders of \
-                     magnitude apart, or reduce the load",
-                    path.taken + path.refused,
-                    100.0 * load
-                )),
-                error_estimate: f64::NAN,
-                path,
-            },
-            PathEnd::Interrupted { .. } => self.interrupted(path),
-            PathEnd::SingularAtRest => Outcome {
-                status: Status::Singular,
-                reason: Some("the unloaded mechanism has a motion without resistance".to_string()),
-                error_estimate: f64::NAN,
-                path,
-            },
-        }
-    }
-
-    fn why_stalled(&self, load: f64) -> String {
-        let part = 100.0 * load;
-        let ends = self.problem.contact_ends();
-        if ends.is_empty() {
-            format!(
-                "the path from rest ends at {part:.4} % of the load, most likely at a fold (limit point) where the \
-                 mechanism snaps; reduce the load, or drive the motion by a joint coordinate instead of a force"
-            )
-        } else {
-            let ends = ends.join(", and ");
-            format!(
-                "the path from rest ends at {part:.4} % of the load: {ends}; reduce the load, or give longer boundaries"
-            )
-        }
+        let most = self.most_effort();
+        self.problem.allow_effort(most);
+        let mut way =
+            Way { problem: &mut self.problem, options: self.path, work: PathWork::default(), progress };
+        let gone = settle::go(&mut way, &self.footing);
+        let work = way.work;
+        self.problem.allow_effort(most);
+        let outcome = match gone {
+            Ok(()) => self.finish(tolerance, work, f64::INFINITY),
+            Err(_) if self.problem.is_interrupted() => self.interrupted(work),
+            Err(ending) => Outcome::ended(ending, work),
+        };
+        self.problem.allow_effort(f64::INFINITY);
+        outcome
     }
 
     /// From an earlier result to the equilibrium next to it; None if there is none near.
@@ -321,6 +296,10 @@ impl Prepared {
                 )),
                 error,
             ),
+            Finish::Failed(NewtonEnd::Exhausted) => {
+                let ending = Ending::Work { load: 1.0, steps: path.taken + path.refused, crossings: path.crossings };
+                return Outcome::ended(ending, path);
+            }
             Finish::Failed(NewtonEnd::Broken(Breakdown::Singular)) => (
                 Status::Singular,
                 Some("the tangent has no inverse at the full load: a fold or branch point".to_string()),
@@ -340,18 +319,19 @@ impl Prepared {
             let reason = format!(
                 "{cable} would have to push with {push:.6} N to have its length: it is slack; shorten it, or leave it out"
             );
-            return Outcome { status: Status::Inconsistent, reason: Some(reason), error_estimate, path };
+            return Outcome::without(Status::Inconsistent, reason, error_estimate, path);
         }
         if let Some((joint, shift, turn)) = self.problem.open_loop() {
+            let names = self.problem.withdraw_redundancy().join(", ");
             let reason = format!(
                 "the loop does not close: at {joint} its two sides are {:.4} mm and {:.4} deg apart; free one of its \
-                 joints, or correct the places and axes of those that the warning names",
+                 joints, or correct the places and axes of {names}",
                 shift * 1e3,
                 turn.to_degrees()
             );
-            return Outcome { status: Status::Inconsistent, reason: Some(reason), error_estimate, path };
+            return Outcome::without(Status::Inconsistent, reason, error_estimate, path);
         }
-        Outcome { status, reason, error_estimate, path }
+        Outcome { status, reason, ending: None, error_estimate, path }
     }
 
     /// Says whether the present equilibrium is stable.

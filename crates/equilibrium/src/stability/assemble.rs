@@ -21,6 +21,9 @@ pub(super) struct Target {
     flipped: bool,
 }
 
+/// What a stretch costs, in integration steps of one state.
+const STRETCH: f64 = 40.0;
+
 /// The second variation, kept from one use to the next.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Second {
@@ -100,6 +103,7 @@ impl Equilibrium {
         }
         let (rows, columns, size, multipliers) = self.targets(&numbers, total);
         let shape: Vec<usize> = cuts.iter().map(|cut| cut.forms.len()).collect();
+        self.effort.0 += STRETCH * shape.iter().sum::<usize>() as f64 + self.cost_of_factorising();
         let mut second = std::mem::take(&mut self.second);
         if second.shape != shape || second.plain.size() != total {
             let one = BlockPlace { first: 0, count: total, place: [0.0; 3] };

@@ -57,6 +57,7 @@ const MODELS: &[(&str, &str)] = &bundled![
     "deep_arch",
     "clavicle",
     "column_on_foundation",
+    "pendulum",
     "ends_cantilever",
     "ends_clamped",
     "ends_pinned",

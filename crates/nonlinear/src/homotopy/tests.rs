@@ -101,7 +101,7 @@ fn a_path_stops_at_a_fold_and_does_not_jump_over_it() {
     // x - x³/3 folds at x = 1 with f = 2/3; beyond it only the far branch x < -1 solves f = 0.8.
     let mut system = Scalar::new(0.8, |x| (x - x * x * x / 3.0, 1.0 - x * x));
     let (end, _) = follow(&mut system, &PathOptions::default(), &mut |_, _| {});
-    let PathEnd::Stalled { load } = end else { panic!("{end:?}") };
+    let PathEnd::Blocked { load, .. } = end else { panic!("{end:?}") };
     assert!((load * 0.8 - 2.0 / 3.0).abs() < 1e-4, "stopped at {load}");
     // Points of the path are only as good as `point_tolerance`.
     assert!((system.x - 1.0).abs() < 0.02, "{}", system.x);

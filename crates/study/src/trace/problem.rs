@@ -31,9 +31,6 @@ impl Axis {
 /// Laws that are kept: those of the last parameters, which differences come back to.
 const KEPT: usize = 3;
 
-/// Step by which a direction is carried to another layout.
-const SHIFT: f64 = 1e-5;
-
 pub(crate) struct Traced<'a> {
     pub prepared: Prepared,
     family: &'a mut dyn Family,
@@ -157,18 +154,7 @@ impl<'a> Traced<'a> {
             return None;
         }
         self.laws.clear();
-        let mut moved = problem.clone();
-        problem.renew();
-        let small: Vec<f64> = tangent.step.iter().map(|t| t * SHIFT).collect();
-        moved.retract(&small);
-        moved.take_segments_of(problem);
-        let (mut here, mut there) = (Vec::new(), Vec::new());
-        problem.store(&mut here);
-        moved.store(&mut there);
-        let mut step = vec![0.0; problem.unknowns()];
-        problem.difference(&here, &there, &mut step);
-        step.iter_mut().for_each(|s| *s /= SHIFT);
-        Some(Tangent { step, parameter: tangent.parameter })
+        Some(crate::way::cut_anew(problem, tangent))
     }
 
     /// Makes the steps half as long.
