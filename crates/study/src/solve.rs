@@ -221,16 +221,8 @@ impl Prepared {
         self.problem.rest();
         let mut report =
             |load: f64, steps: usize| progress(Progress { load_fraction: load, load_steps: steps });
-        if self.problem.phase(1.0) > LARGEST_PHASE {
-            return Outcome {
-                status: Status::IterationLimit,
-                reason: Some(
-                    "the load is more than a hundred million times EI/L²; check its unit and the section's dimensions"
-                        .to_string(),
-                ),
-                error_estimate: f64::NAN,
-                path: PathWork::default(),
-            };
+        if let Some(outcome) = self.overloaded() {
+            return outcome;
         }
         let (mut end, mut path) = follow(&mut self.problem, &self.path, &mut report);
         if let PathEnd::Stalled { load: before } = end {
@@ -273,6 +265,19 @@ impl Prepared {
                 path,
             },
         }
+    }
+
+    /// A load that is taken for a mistake: nothing is solved, and no mesh is made for it.
+    pub(crate) fn overloaded(&self) -> Option<Outcome> {
+        (self.problem.phase(1.0) > LARGEST_PHASE).then(|| Outcome {
+            status: Status::IterationLimit,
+            reason: Some(
+                "the load is more than a hundred million times EI/L²; check its unit and the section's dimensions"
+                    .to_string(),
+            ),
+            error_estimate: f64::NAN,
+            path: PathWork::default(),
+        })
     }
 
     fn why_stalled(&self, load: f64) -> String {
@@ -471,6 +476,13 @@ pub fn solve_family(
             "the earlier result is too far from an equilibrium of this model; it was solved from rest"
                 .to_string(),
         );
+    }
+    if let Some(count @ 1..) = solution.unstable_directions {
+        solution.warnings.push(format!(
+            "the equilibrium is unstable in {count} {}: the mechanism does not stay there by itself; `flexura trace` shows where other \
+             branches leave its path",
+            if count == 1 { "direction" } else { "directions" }
+        ));
     }
     if outcome.status == Status::Converged {
         prepared.add_tangents(&mut solution, &options.compliances);

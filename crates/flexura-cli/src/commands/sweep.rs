@@ -188,7 +188,7 @@ fn is_interrupted(sample: &Sample) -> bool {
     sample.status == SampleStatus::Solved(Status::Interrupted)
 }
 
-/// The table: varied parameters, status, what was found, outputs, energy, error estimate, reason.
+/// The table: varied parameters, status, what was found, outputs, stability, energy, error estimate, reason.
 struct Table<'a> {
     model: &'a Model,
     axes: &'a [Axis],
@@ -220,7 +220,8 @@ impl<'a> Table<'a> {
                 _ => header.push(headed(&output.name, &output.unit)),
             }
         }
-        header.extend(["energy [J]", "error_estimate", "reason", "warnings"].map(str::to_owned));
+        let last = ["stable", "unstable_directions", "energy [J]", "error_estimate", "reason", "warnings"];
+        header.extend(last.map(str::to_owned));
         csv_line(&header)
     }
 
@@ -240,6 +241,9 @@ impl<'a> Table<'a> {
                 None => row.extend(output.formulas.iter().map(|_| String::new())),
             }
         }
+        let unstable = sample.unstable_directions;
+        row.push(unstable.map_or_else(String::new, |count| (count == 0).to_string()));
+        row.push(unstable.map_or_else(String::new, |count| count.to_string()));
         row.extend([cell(sample.energy), cell(sample.error_estimate)]);
         let reasons: Vec<&str> = match &sample.reason {
             Some(reason) if sample.output_reasons.is_empty() => vec![reason],
@@ -276,9 +280,15 @@ struct SampleDocument<'a> {
     warnings: Vec<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     unknowns: Option<Named<f64>>,
+<<<<<<< HEAD
     outputs: Named<Option<Value>>,
     #[serde(skip_serializing_if = "Named::is_empty")]
     output_reasons: Named<&'a str>,
+=======
+    outputs: Named<Value>,
+    stable: Option<bool>,
+    unstable_directions: Option<usize>,
+>>>>>>> ad557ea (Find critical values on either side, count turning on, and follow branches where several directions give way)
     energy: Option<f64>,
     error_estimate: Option<f64>,
 }
@@ -326,6 +336,8 @@ impl<'a> SampleDocument<'a> {
             output_reasons: Named(
                 sample.output_reasons.iter().map(|(i, reason)| (output_name(*i), reason.as_str())).collect(),
             ),
+            stable: sample.unstable_directions.map(|count| count == 0),
+            unstable_directions: sample.unstable_directions,
             energy: sample.energy,
             error_estimate: sample.error_estimate,
         }

@@ -7,32 +7,25 @@
 //! dependence on the load is linearised; the error goes with even powers of their length, of which three approximations take away
 //! two (Romberg).
 
+use super::path;
+use super::pencil::Failure;
 use super::record::normalise;
-use super::ritz;
-use crate::family::{SMALL, size_of};
+use crate::family::size_of;
 use crate::{Family, Options, Prepared, ProblemError};
-use flexura_equilibrium::{Rate, Variation};
-use flexura_model::{BuckleStudy, Model, StudyKind};
-use flexura_nonlinear::{Breakdown, NewtonEnd, NewtonOptions, System, converge};
+use flexura_model::{BuckleStudy, Guide, Joint, Model, StudyKind};
 use flexura_solution::{BeamSample, Buckling, BucklingMode, Direction, Solution, Status};
 use flexura_spatial::{Twist, Vector3};
 
 /// Stretches that a smooth part of a beam is cut into, for three approximations.
 const PARTS: [usize; 3] = [12, 24, 48];
-/// Size of the change of the state along which the second variation is differenced.
-const CHANGE: f64 = 1e-2;
-/// By how much more the wrenches change where the shape is kept: the second variation is all but linear in them, and round-off in
-/// stiff directions would tell in a small difference.
-const STRESS: f64 = 30.0;
 /// Estimated error, as a part of the value, beyond which a value is none.
 const UNSURE: f64 = 0.1;
 /// Change of curvature times length beyond which a state counts as bent.
 const BENT: f64 = 1e-4;
-/// Steps of the load to a fraction of it.
-const LOAD_STEPS: usize = 20;
+/// Part by which the distances of two values may differ that lie equally far away on either side.
+const TIED: f64 = 1e-6;
 
-/// Critical loads of the linearised problem, nearest to the equilibrium's own first: those beyond it in the direction of growing
-/// values, or below it where there are none beyond.
+/// Critical loads of the linearised problem on either side of the equilibrium's own, nearest first.
 ///
 /// # Errors
 /// A model that describes no solvable mechanism, or one without an energy.
@@ -43,14 +36,7 @@ pub fn buckle(
     options: &Options,
 ) -> Result<Buckling, ProblemError> {
     super::check_study(model, StudyKind::Buckle(*study))?;
-    let wrong = |why: String, hint: &str| ProblemError::new("study", why, hint);
-    let base = match study.parameter {
-        Some(parameter) => family.model(&[(parameter, study.at)]).map_err(|error| ProblemError {
-            hint: "choose `at` (`--at`): the value about which the problem is linearised".to_string(),
-            ..error
-        })?,
-        None => model.clone(),
-    };
+    let base = model_at(model, family, study)?;
     let mut prepared = Prepared::new(&base)?;
     prepared.heed(&options.interrupt);
     let outcome = match study.parameter {
@@ -58,21 +44,79 @@ pub fn buckle(
         None => prepared.part_of_load(study.at, options.tolerance)?,
     };
     let mut solution = prepared.solution(&outcome, options.samples);
+    let mut buckling =
+        Buckling { parameter: study.parameter, at: study.at, solution: solution.clone(), modes: Vec::new() };
     if outcome.status != Status::Converged {
-        return Ok(Buckling { parameter: study.parameter, at: study.at, solution, modes: Vec::new() });
+        return Ok(buckling);
     }
-    // A load may be nothing here and follow as soon as it is something.
-    let beside = match study.parameter {
-        Some(parameter) => {
-            let size = size_of(prepared.problem.model(), parameter, prepared.problem.units(), 1.0);
-            family
-                .model(&[(parameter, study.at + 1e-3 * size)])
-                .ok()
-                .and_then(|model| Prepared::new(&model).ok())
-                .and_then(|beside| beside.problem.without_energy())
-        }
-        None => None,
+    prepared.add_tangents(&mut solution, &[]);
+    refuse(&prepared, model, family, study, &solution)?;
+    if bent(&solution) > BENT {
+        solution.warnings.push(
+            "other loads bend the mechanism already; what linear buckling says of a bent state may be off, so trace the parameter, too"
+                .to_string(),
+        );
+    }
+    let failed = |failure| match failure {
+        Failure::Problem(error) => error,
+        Failure::Critical => wrong(
+            "is linearised about an equilibrium that is itself critical".to_string(),
+            "choose another value of `at`",
+        ),
+        Failure::Breakdown => wrong(
+            "has no sound numbers beside the equilibrium that it is linearised about".to_string(),
+            "trace the load instead",
+        ),
     };
+    let width = prepared.difference(family, study, PARTS[0]).map_err(failed)?;
+    let mut unsure = 0;
+    if let Some(width) = width {
+        (buckling.modes, unsure) =
+            modes(&mut prepared, family, study, width, &solution).map_err(failed)?;
+    }
+    if unsure > 0 {
+        solution.warnings.push(format!(
+            "{unsure} critical values are left out, for they change by more than a tenth when beams are cut into more stretches; trace the \
+             parameter instead"
+        ));
+    } else if buckling.modes.is_empty() {
+        solution.warnings.push(nothing(model));
+    } else if buckling.modes.len() < study.count.max(1) {
+        solution.warnings.push(format!("only {} critical values were found", buckling.modes.len()));
+    }
+    solution.warnings.extend(path::compared(model, family, study, &buckling.modes, options));
+    Ok(Buckling { solution, ..buckling })
+}
+
+fn wrong(why: String, hint: &str) -> ProblemError {
+    ProblemError::new("study", why, hint)
+}
+
+/// The model at the equilibrium about which the problem is linearised.
+fn model_at(model: &Model, family: &mut dyn Family, study: &BuckleStudy) -> Result<Model, ProblemError> {
+    match study.parameter {
+        Some(parameter) => family.model(&[(parameter, study.at)]).map_err(|error| ProblemError {
+            hint: "choose `at` (`--at`): the value about which the problem is linearised".to_string(),
+            ..error
+        }),
+        None => Ok(model.clone()),
+    }
+}
+
+/// What linear buckling has no sound answer for.
+fn refuse(
+    prepared: &Prepared,
+    model: &Model,
+    family: &mut dyn Family,
+    study: &BuckleStudy,
+    solution: &Solution,
+) -> Result<(), ProblemError> {
+    // A load may be nothing here and follow as soon as it is something.
+    let beside = study.parameter.and_then(|parameter| {
+        let size = size_of(prepared.problem.model(), parameter, prepared.problem.units(), 1.0);
+        let model = family.model(&[(parameter, study.at + 1e-3 * size)]).ok()?;
+        Prepared::new(&model).ok()?.problem.without_energy()
+    });
     if let Some(why) = prepared.problem.without_energy().or(beside) {
         return Err(wrong(
             format!("has no linear buckling: {why}"),
@@ -80,42 +124,50 @@ pub fn buckle(
         ));
     }
     // The change of the moments along a bent beam is known between its stretches' ends only; that is too coarse beside a stiff axis.
-    if bent(&solution) > BENT {
-        if study.at != 0.0 {
-            return Err(wrong(
-                "is linearised about a bent state, for which this version has no sound answer".to_string(),
-                "leave out `at`, or trace the parameter",
-            ));
-        }
-        solution.warnings.push(
-            "other loads bend the mechanism already; what linear buckling says of a bent state may be off, so trace the parameter, too"
-                .to_string(),
-        );
-    }
-    if let Some(cable) = model
-        .cables
-        .iter()
-        .find(|cable| cable.route.iter().any(|guide| matches!(guide, flexura_model::Guide::Channel { .. })))
-    {
+    if bent(solution) > BENT && study.at != 0.0 {
         return Err(wrong(
+            "is linearised about a bent state, for which this version has no sound answer".to_string(),
+            "leave out `at`, or trace the parameter",
+        ));
+    }
+    let in_channels = |guide: &Guide| matches!(guide, Guide::Channel { .. });
+    match model.cables.iter().find(|cable| cable.route.iter().any(in_channels)) {
+        Some(cable) => Err(wrong(
             format!(
                 "has no linear buckling in this version: cable.{} runs in channels along beams",
                 cable.name
             ),
             "trace the load instead",
-        ));
+        )),
+        None => Ok(()),
     }
-    let critical = |_| {
-        wrong(
-            "is linearised about an equilibrium that is itself critical".to_string(),
-            "choose another value of `at`",
-        )
+}
+
+/// Why a mechanism has no critical value.
+fn nothing(model: &Model) -> String {
+    let sprung = |joint: &Joint| {
+        joint.law.coordinates.iter().any(|law| law.stiffness != 0.0 || law.limits.is_some_and(|l| l.stiffness.is_some()))
     };
+    if model.beams.is_empty() && model.springs.is_empty() && !model.joints.iter().any(sprung) {
+        "nothing in it can buckle: it has no beam, no spring and no joint with a stiffness".to_string()
+    } else {
+        "no value is critical: along the load as it is linearised no stiffness changes".to_string()
+    }
+}
+
+/// The critical values with their modes, nearest first, and how many are left out because they are unsure.
+fn modes(
+    prepared: &mut Prepared,
+    family: &mut dyn Family,
+    study: &BuckleStudy,
+    width: f64,
+    solution: &Solution,
+) -> Result<(Vec<BucklingMode>, usize), Failure> {
     let wanted = study.count.max(1);
-    let mut levels: Vec<Vec<f64>> = Vec::with_capacity(PARTS.len());
-    let mut modes = Vec::new();
-    let mut unsure = 0;
+    let mut coarser: Vec<Vec<f64>> = Vec::with_capacity(PARTS.len());
+    let (mut modes, mut unsure) = (Vec::new(), 0);
     for parts in PARTS {
+<<<<<<< HEAD
         let mut pencil = match prepared.pencil(family, study, parts) {
             Ok(pencil) => pencil,
             Err(_) if options.interrupt.is_raised() => {
@@ -143,22 +195,36 @@ pub fn buckle(
                 let direction = mode(&solution, bodies, &places, prepared.problem.units().0);
                 modes.push(BucklingMode { value: study.at + value, error_estimate, direction });
             }
+=======
+        let mut pencil = prepared.pencil(family, study, parts, width)?;
+        let mut found = pencil.nearest(2 * wanted + 4);
+        // Of a pair on either side the one beyond comes first.
+        found.sort_by(|a, b| {
+            let apart = a.0.abs() - b.0.abs();
+            let tied = apart.abs() <= TIED * a.0.abs().max(b.0.abs());
+            if tied { b.0.total_cmp(&a.0) } else { apart.total_cmp(&0.0) }
+        });
+        if coarser.len() + 1 < PARTS.len() {
+            coarser.push(found.into_iter().map(|(value, _)| value).collect());
+            continue;
         }
-        levels.push(found.into_iter().map(|(value, _)| value).collect());
+        for (value, x) in found.iter().take(wanted) {
+            let (value, error_estimate) = romberg(&mut coarser, *value);
+            if error_estimate > UNSURE * value.abs() {
+                unsure += 1;
+                continue;
+            }
+            let (bodies, places) = prepared.problem.motions_of(&pencil.base, x);
+            let direction = mode(solution, bodies, &places, prepared.problem.units().0);
+            modes.push(BucklingMode { value: study.at + value, error_estimate, direction });
+>>>>>>> ad557ea (Find critical values on either side, count turning on, and follow branches where several directions give way)
+        }
     }
-    if unsure > 0 {
-        solution.warnings.push(format!(
-            "{unsure} critical values are left out, for they change by more than a tenth when beams are cut into more stretches; trace the \
-             parameter instead"
-        ));
-    } else if modes.len() < wanted {
-        solution.warnings.push(format!("only {} critical values were found", modes.len()));
-    }
-    Ok(Buckling { parameter: study.parameter, at: study.at, solution, modes })
+    Ok((modes, unsure))
 }
 
 /// How far beams are bent: the largest change of curvature times length.
-fn bent(solution: &Solution) -> f64 {
+pub(super) fn bent(solution: &Solution) -> f64 {
     let each = solution.beams.iter().flat_map(|beam| {
         beam.samples.iter().map(|sample| {
             // Twist alone leaves a beam straight.
@@ -196,15 +262,22 @@ fn mode(solution: &Solution, bodies: Vec<Twist>, places: &[Vec<(f64, Twist)>], l
     direction
 }
 
-/// The value for stretches of no length, from those at two coarser levels and the finest, and its estimated error.
-fn romberg(levels: &[Vec<f64>], i: usize, finest: f64) -> (f64, f64) {
-    let at = |level: usize| levels.get(level).and_then(|list| list.get(i)).copied();
-    let (Some(first), Some(second)) = (at(0), at(1)) else { return (finest, finest.abs()) };
+/// The value for stretches of no length, from those at two coarser levels that are nearest to the finest, and its estimated error. Values
+/// that are used are taken away.
+fn romberg(coarser: &mut [Vec<f64>], finest: f64) -> (f64, f64) {
+    let mut take = |level: usize| -> Option<f64> {
+        let list = coarser.get_mut(level)?;
+        let apart = |value: &f64| (value - finest).abs();
+        let nearest = (0..list.len()).min_by(|a, b| apart(&list[*a]).total_cmp(&apart(&list[*b])))?;
+        Some(list.swap_remove(nearest))
+    };
+    let (Some(first), Some(second)) = (take(0), take(1)) else { return (finest, finest.abs()) };
     let (a, b) = (second + (second - first) / 3.0, finest + (finest - second) / 3.0);
     let better = (b - a) / 15.0;
     // Where stretches of no compliance stiffen the matrix, round-off has its part in it.
     (b + better, 4.0 * better.abs() + 1e-6 * b.abs())
 }
+<<<<<<< HEAD
 
 enum Failure {
     Breakdown(Breakdown),
@@ -354,3 +427,5 @@ impl Prepared {
         Ok(side?)
     }
 }
+=======
+>>>>>>> ad557ea (Find critical values on either side, count turning on, and follow branches where several directions give way)

@@ -18,7 +18,10 @@ pub(crate) struct Met {
     pub point: Point,
     pub branches: Vec<Tangent>,
     pub fold: bool,
-    pub simple: bool,
+    /// Critical directions.
+    pub kernel: Vec<Vec<f64>>,
+    /// The direction of the path on which it was met.
+    pub tangent: Tangent,
 }
 
 /// What following came to.
@@ -53,6 +56,8 @@ pub(crate) struct Follower<'s> {
     pub interrupt: Interrupt,
     /// Events and stops that were seen to be passed but could not be placed.
     pub missed: std::cell::Cell<usize>,
+    /// What there is to know of the states on the path, with the parameter where each was first said.
+    pub told: std::cell::RefCell<Vec<(f64, String)>>,
 }
 
 /// Regular points between two whose whole state is kept.
@@ -114,6 +119,7 @@ impl Follower<'_> {
         };
         let mut before = self.read(traced, walker);
         let mut start = walker.here().clone();
+        self.tell(traced.axes[0].value(start.point.parameters[0]), &before.warnings);
         let from_start = matches!(first, First::Start);
         let mut point =
             regular(traced.axes[0].value(start.point.parameters[0]), &start, before.clone(), error);
@@ -135,6 +141,9 @@ impl Follower<'_> {
         leg.points.push(point);
         let mut since_kept = 0;
         let mut steps = 0;
+        let begins = start.point.parameters[0];
+        let edge = if begins > 0.5 { 1.0 } else { 0.0 };
+        let mut away = (begins - edge).abs() > ARRIVED;
         loop {
             let known = leg.points.len();
             if leg.points.len() >= self.study.most_points {
@@ -145,19 +154,22 @@ impl Follower<'_> {
                 Advance::To(specials) => specials,
                 Advance::Stalled(stall) => {
                     self.close(traced, walker, leg);
-                    return self.end_at(traced, leg, &stall);
+                    return self.end_at(traced, leg, &stall, away);
                 }
             };
             steps += 1;
             let scaled = walker.here().point.parameters[0];
             let beyond = !(-EDGE..=1.0 + EDGE).contains(&scaled);
             let limit = if scaled > 0.5 { 1.0 } else { 0.0 };
-            let last = if beyond || (scaled - limit).abs() <= EDGE {
+            // The end at which the leg begins is no end before the leg has been away from it.
+            away |= (scaled - edge).abs() > ARRIVED;
+            let arrives = (scaled - limit).abs() <= EDGE && (away || limit != edge);
+            let last = if beyond || arrives {
                 match walker.at_parameter(traced, limit) {
                     Ok(place) => Some(place),
                     Err(stall) => {
                         self.close(traced, walker, leg);
-                        return self.end_at(traced, leg, &stall);
+                        return self.end_at(traced, leg, &stall, away);
                     }
                 }
             } else {
@@ -178,6 +190,8 @@ impl Follower<'_> {
                     self.read(traced, walker)
                 }
             };
+            let value = if last.is_some() { limit } else { scaled };
+            self.tell(traced.axes[0].value(value), &reading.warnings);
             let inside = |special: &Special| (-EDGE..=1.0 + EDGE).contains(&special.point.parameters[0]);
             let mut passed: Vec<(f64, Passed)> = Vec::new();
             for special in specials.into_iter().filter(inside) {
@@ -274,10 +288,9 @@ impl Follower<'_> {
 
     /// Why a leg ends that cannot go on: at the very end of the range there may be no regular point, for a load that goes to nothing can
     /// leave something free.
-    fn end_at(&self, traced: &mut Traced<'_>, leg: &Leg, stall: &Stall) -> BranchEnd {
+    fn end_at(&self, traced: &mut Traced<'_>, leg: &Leg, stall: &Stall, away: bool) -> BranchEnd {
         let at = leg.points.last().map_or(0.5, |point| traced.axes[0].scaled(point.parameter));
-        let arrived = leg.points.len() > 1 && at.abs().min((at - 1.0).abs()) <= ARRIVED;
-        if arrived {
+        if away && at.abs().min((at - 1.0).abs()) <= ARRIVED {
             return BranchEnd::Range;
         }
         let ends = traced.problem().contact_ends();
@@ -325,6 +338,16 @@ impl Follower<'_> {
             walker.disturbed();
         }
         self.reader.read(traced)
+    }
+
+    /// Keeps warnings of a point on the path, each kind once.
+    fn tell(&self, value: f64, warnings: &[String]) {
+        let mut told = self.told.borrow_mut();
+        for warning in warnings {
+            if !told.iter().any(|(_, known)| kind(known) == kind(warning)) {
+                told.push((value, warning.clone()));
+            }
+        }
     }
 
     /// Adds the whole state to a point at which the problem stands.
@@ -471,7 +494,8 @@ impl Follower<'_> {
                 point: special.point.clone(),
                 branches: special.branches.clone(),
                 fold: special.crossing.is_none(),
-                simple: special.kernel.len() == 1,
+                kernel: special.kernel.clone(),
+                tangent: walker.here().tangent.clone(),
             });
         }
         leg.points.push(point);
@@ -537,6 +561,15 @@ impl Follower<'_> {
             Stop::Event(n) => count(&|k| !matches!(k, PointKind::Regular | PointKind::End)) >= *n,
         })
     }
+}
+
+/// A warning without its numbers.
+fn kind(warning: &str) -> String {
+    warning.split(|c: char| c == ' ' || c == ',').filter(|word| !starts_as_number(word)).collect()
+}
+
+fn starts_as_number(word: &str) -> bool {
+    word.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit())
 }
 
 pub(crate) fn stalled(stall: &Stall) -> BranchEnd {

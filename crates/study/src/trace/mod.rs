@@ -7,6 +7,8 @@ mod buckle;
 mod critical;
 mod leg;
 mod line;
+mod path;
+mod pencil;
 mod problem;
 mod record;
 mod ritz;
