@@ -53,8 +53,7 @@ pub fn spread<P: Problem>(
         let across = Tangent { step: across, parameter: 0.0 }.normalised(problem.system());
         let Some(direction) = pushed(problem, options, from, &across) else { continue };
         let system = problem.system();
-        let same =
-            |other: &Tangent| other.product(system, &direction.step, direction.parameter).abs() > SAME;
+        let same = |other: &Tangent| other.product(system, &direction.step, direction.parameter).abs() > SAME;
         if !known.iter().any(same) {
             known.push(direction);
         }

@@ -145,7 +145,11 @@ impl Coordinates {
             }
             None => {
                 for (o, i) in out.iter_mut().zip(&self.free) {
-                    *o = if self.comes_round(*i) { full[*i] - TAU * (full[*i] / TAU).round() } else { full[*i] };
+                    *o = if self.comes_round(*i) {
+                        full[*i] - TAU * (full[*i] / TAU).round()
+                    } else {
+                        full[*i]
+                    };
                 }
             }
         }

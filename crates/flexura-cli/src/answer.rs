@@ -9,8 +9,8 @@ use crate::screen;
 use flexura::Options;
 use flexura::model::{Model, visible};
 use flexura::modelfile::Document;
-use flexura::post::PostError;
 use flexura::output::{self, BucklingDocument, InverseDynamicsDocument, TraceDocument, to_json};
+use flexura::post::PostError;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -65,7 +65,9 @@ impl<'a> Task<'a> {
         }
         match answer.failure {
             // It may have been ended in what comes after the equilibrium.
-            None if is_interrupted => Err(Failure::Interrupted("interrupted; what was found is kept".to_owned())),
+            None if is_interrupted => {
+                Err(Failure::Interrupted("interrupted; what was found is kept".to_owned()))
+            }
             failure => failure.map_or(Ok(()), Err),
         }
     }

@@ -56,7 +56,9 @@ fn trace_answers() {
     each("trace", |file| {
         let (name, from, to) = parameter(file)?;
         let flags = ["--parameter", &name, "--range", &format!("{from}:{to}"), "--steps", "3"];
-        Some(flags.iter().map(|flag| (*flag).to_owned()).chain(["--most-points".into(), "8".into()]).collect())
+        Some(
+            flags.iter().map(|flag| (*flag).to_owned()).chain(["--most-points".into(), "8".into()]).collect(),
+        )
     });
 }
 
@@ -73,12 +75,27 @@ fn buckle_answers_about_a_parameter() {
     });
 }
 
+/// Studies that take many seconds; they are run where their pictures are made.
+const LONG: [&str; 6] = [
+    "column_on_foundation.toml",
+    "knee_ellipses.toml",
+    "knee_exoskeleton.toml",
+    "knee_leg.toml",
+    "shallow_arch.toml",
+    "strip_on_slope.toml",
+];
+
+#[test]
+fn run_answers() {
+    each("run", |file| (!LONG.contains(&file)).then(Vec::new));
+}
+
 /// Rigid mechanisms that a drive leads, and such as beams hold without a load on them.
 #[test]
 fn what_cannot_buckle_is_said_to() {
     for (file, why) in [
         ("ellipse_on_circle.toml", "nothing in it can buckle"),
-        ("rigid_four_bar.toml", "nothing in it can buckle"),
+        ("rigid_four_bar.toml", "no value is critical"),
         ("coracoid_keel.toml", "nothing in it can buckle"),
     ] {
         let output = run(&["buckle", file]);

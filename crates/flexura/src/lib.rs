@@ -156,8 +156,9 @@ pub use flexura_post as post;
 pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;
 pub use flexura_study::{
-    Census, Equilibrium, Family, Interrupt, MotionProgress, Options, Outcome, Prepared, ProblemError, Progress,
-    SensitivityError, TraceProgress, buckle, check, equilibria, inverse_dynamics, solve, solve_family, trace,
+    Census, Equilibrium, Family, Interrupt, MotionProgress, Options, Outcome, Prepared, ProblemError,
+    Progress, SensitivityError, TraceProgress, buckle, check, equilibria, inverse_dynamics, solve,
+    solve_family, trace,
 };
 pub use solve_file::{Error, Solved, solve_file};
 pub use trace_file::{Buckled, Traced, buckle_file, study_named, trace_file, trace_view};

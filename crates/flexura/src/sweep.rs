@@ -244,7 +244,8 @@ impl<'a> Sweep<'a> {
         pool.broadcast(|_| {
             loop {
                 let position = next.fetch_add(1, Ordering::Relaxed);
-                let Some(place) = samples.get(position).filter(|_| !self.options.interrupt.is_raised()) else {
+                let Some(place) = samples.get(position).filter(|_| !self.options.interrupt.is_raised())
+                else {
                     break;
                 };
                 let sample = self.sample(position);

@@ -172,7 +172,8 @@ fn two_stiffnesses(along: &str) -> String {
     )
 }
 
-/// (2n - 1)² π²/4 EI/L² and its double; the column is shortened by P/EA, which the tolerance allows for.
+/// (2n - 1)² π²/4 EI/L² and its double. The column is shortened by P/EA, 10⁻⁶ P, which the tolerance allows for at the value and at the
+/// state about which it is linearised.
 #[test]
 fn critical_values_come_nearest_first_from_either_side() {
     let all = [1.0, 2.0, 9.0, 18.0, 25.0, 49.0, 50.0, 98.0].map(|factor| factor * PI * PI / 4.0);
@@ -183,7 +184,11 @@ fn critical_values_come_nearest_first_from_either_side() {
             wanted.sort_by(|a, b| (a - at).abs().total_cmp(&(b - at).abs()));
             assert_eq!(found.modes.len(), 4, "{along} at {at}: {:?}", found.solution.warnings);
             for (mode, wanted) in found.modes.iter().zip(&wanted) {
-                assert!((sign * mode.value - wanted).abs() < 1e-4 * wanted, "{along} at {at}: {}", mode.value);
+                assert!(
+                    (sign * mode.value - wanted).abs() < 1e-4 * wanted,
+                    "{along} at {at}: {}",
+                    mode.value
+                );
             }
         }
     }

@@ -32,7 +32,9 @@ fn a_free_joint_reads_the_turning_that_it_was_driven_to() {
     }
     for kind in ["spherical", "free"] {
         let key = if kind == "free" { "rotation = { coordinate = V }" } else { "coordinate = V" };
-        let text = format!("format = 1\n[body.b]\n[joint.j]\nkind = \"{kind}\"\nparent = \"ground\"\nchild = \"b\"\n{key}\n");
+        let text = format!(
+            "format = 1\n[body.b]\n[joint.j]\nkind = \"{kind}\"\nparent = \"ground\"\nchild = \"b\"\n{key}\n"
+        );
         let text = text.replace('V', "[0, \"1080 deg\", 0]");
         let held = "position = { coordinate = [0, 0, 0] }\n";
         let text = if kind == "free" { text + held } else { text };

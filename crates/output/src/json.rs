@@ -121,7 +121,11 @@ impl Formatter for Layout {
     }
 
     /// Whatever steers a terminal is escaped, which reads back as the same text.
-    fn write_string_fragment<W: ?Sized + io::Write>(&mut self, writer: &mut W, fragment: &str) -> io::Result<()> {
+    fn write_string_fragment<W: ?Sized + io::Write>(
+        &mut self,
+        writer: &mut W,
+        fragment: &str,
+    ) -> io::Result<()> {
         let mut rest = fragment;
         while let Some((at, unseen)) = rest.char_indices().find(|(_, character)| is_unseen(*character)) {
             writer.write_all(&rest.as_bytes()[..at])?;

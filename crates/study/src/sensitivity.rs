@@ -40,7 +40,9 @@ pub enum SensitivityError {
 impl std::fmt::Display for SensitivityError {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            SensitivityError::Tangent(Breakdown::Interrupted) => formatter.write_str("no sensitivities: interrupted"),
+            SensitivityError::Tangent(Breakdown::Interrupted) => {
+                formatter.write_str("no sensitivities: interrupted")
+            }
             SensitivityError::Tangent(_) => {
                 formatter.write_str("no sensitivities: the equilibrium is at a fold or branch point")
             }
@@ -57,7 +59,9 @@ impl SensitivityError {
     fn of_neighbours(self) -> String {
         match self {
             SensitivityError::Tangent(Breakdown::Interrupted) => "interrupted".to_string(),
-            SensitivityError::Tangent(_) => "the mechanism next to this one gives no sound numbers".to_string(),
+            SensitivityError::Tangent(_) => {
+                "the mechanism next to this one gives no sound numbers".to_string()
+            }
             SensitivityError::Model(error) => error.message,
             SensitivityError::Output(error) => error.to_string(),
         }
@@ -86,7 +90,9 @@ pub(crate) fn warnings(model: &Model, solution: &Solution, found: &Sensitivities
             (0..found.parameters.len()).filter(lacks).map(|column| name(found.parameters[column])).collect();
         if !names.is_empty() {
             let (names, output) = (listed(names), &output.name);
-            warnings.push(format!("no sensitivity of `{output}` to {names}: next to this equilibrium it has no value"));
+            warnings.push(format!(
+                "no sensitivity of `{output}` to {names}: next to this equilibrium it has no value"
+            ));
         }
     }
     warnings
@@ -270,7 +276,8 @@ impl Prepared {
                 let outputs = outputs?;
                 sum.resize(outputs.len(), Some((0.0, 0.0)));
                 for (sum, y) in sum.iter_mut().zip(&outputs) {
-                    *sum = sum.zip(*y).map(|((slope, level), y)| (slope + weight / h * y, level.max(y.abs())));
+                    *sum =
+                        sum.zip(*y).map(|((slope, level), y)| (slope + weight / h * y, level.max(y.abs())));
                 }
             }
             best.resize(sum.len(), Estimate::default());

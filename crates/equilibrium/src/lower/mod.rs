@@ -263,7 +263,9 @@ fn bounded(model: &Model, lowered: &Lowered, beam: usize) -> Result<(), ProblemE
     }
     Err(ProblemError::new(
         format!("beam.{}.foundation", model.beams[beam].name),
-        format!("what bends the beam dies away within 1/{growth:.0} of its length, and that is too short to be followed"),
+        format!(
+            "what bends the beam dies away within 1/{growth:.0} of its length, and that is too short to be followed"
+        ),
         "check the unit of its stiffness and the section's dimensions; so stiff a foundation is as good as a clamp",
     ))
 }

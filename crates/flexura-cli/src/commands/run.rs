@@ -23,7 +23,8 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut failed = Vec::new();
     for study in &studies {
         if task.options.interrupt.is_raised() {
-            failed.push((study.name.as_str(), Failure::Interrupted("interrupted before it began".to_owned())));
+            failed
+                .push((study.name.as_str(), Failure::Interrupted("interrupted before it began".to_owned())));
             continue;
         }
         let folder = task.folder.as_ref().map(|folder| folder.join(&study.name));

@@ -175,7 +175,8 @@ fn complaint(samples: &[Sample]) -> Option<Failure> {
     }
     let failed: usize = counts.iter().map(|(_, count)| count).sum();
     let list: Vec<String> = counts.iter().map(|(word, count)| format!("{count} {word}")).collect();
-    let failed = (failed > 0).then(|| format!("{failed} of {solved} samples did not converge: {}", list.join(", ")));
+    let failed =
+        (failed > 0).then(|| format!("{failed} of {solved} samples did not converge: {}", list.join(", ")));
     if solved == samples.len() {
         return failed.map(Failure::NotConverged);
     }
@@ -280,15 +281,11 @@ struct SampleDocument<'a> {
     warnings: Vec<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     unknowns: Option<Named<f64>>,
-<<<<<<< HEAD
     outputs: Named<Option<Value>>,
     #[serde(skip_serializing_if = "Named::is_empty")]
     output_reasons: Named<&'a str>,
-=======
-    outputs: Named<Value>,
     stable: Option<bool>,
     unstable_directions: Option<usize>,
->>>>>>> ad557ea (Find critical values on either side, count turning on, and follow branches where several directions give way)
     energy: Option<f64>,
     error_estimate: Option<f64>,
 }
@@ -330,9 +327,7 @@ impl<'a> SampleDocument<'a> {
                 let names = model.unknowns.iter().map(|u| model.parameters[u.parameter].name.clone());
                 Named(names.zip(sample.found.iter().copied()).collect())
             }),
-            outputs: Named(
-                outputs.map(|(i, output)| (output_name(i), output.as_ref().map(value))).collect(),
-            ),
+            outputs: Named(outputs.map(|(i, output)| (output_name(i), output.as_ref().map(value))).collect()),
             output_reasons: Named(
                 sample.output_reasons.iter().map(|(i, reason)| (output_name(*i), reason.as_str())).collect(),
             ),

@@ -37,10 +37,7 @@ pub fn motion_document(view: &MotionView<'_>) -> Result<InverseDynamicsDocument,
         outputs: Named::collect(model.outputs.iter().enumerate(), |(i, output)| {
             Ok((output.name.clone(), output_series(instants, i, output)?))
         })?,
-        output_reasons: reasons_by_name(
-            model,
-            instants.iter().flat_map(|instant| &instant.output_reasons),
-        ),
+        output_reasons: reasons_by_name(model, instants.iter().flat_map(|instant| &instant.output_reasons)),
         bodies: Named::collect(model.bodies.iter().enumerate(), |(i, body)| {
             Ok((body.name.clone(), body_series(instants, i, &format!("bodies.{}", body.name))?))
         })?,

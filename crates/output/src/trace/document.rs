@@ -105,9 +105,10 @@ fn point_document(
 ) -> Result<PointDocument, OutputError> {
     let within = |error| inside(path, error);
     let estimated = view.trace.status == Status::Converged || point.error_estimate.is_finite();
-    let state = point.solution.as_ref().map(|solution| {
-        state_document(model, solution, &evaluate_each(model, solution))
-    });
+    let state = point
+        .solution
+        .as_ref()
+        .map(|solution| state_document(model, solution, &evaluate_each(model, solution)));
     let directions = point.directions.iter().map(|direction| shape_document(model, direction));
     Ok(PointDocument {
         second_parameter: None,

@@ -50,11 +50,7 @@ pub fn path_row(
 }
 
 /// A path that converged has an error at every point.
-fn estimated(
-    view: &TraceView<'_>,
-    point: &TracePoint,
-    path: impl Fn() -> String,
-) -> Result<(), OutputError> {
+fn estimated(view: &TraceView<'_>, point: &TracePoint, path: impl Fn() -> String) -> Result<(), OutputError> {
     if view.trace.status == Status::Converged {
         cell(point.error_estimate, || format!("{}.error_estimate", path()))?;
     }

@@ -71,7 +71,7 @@ pub fn trace(
         told: 0,
         interrupt: options.interrupt.clone(),
         missed: Default::default(),
-        told: Default::default(),
+        remarks: Default::default(),
     };
     let unit = match model.parameters[study.parameter].unit.as_str() {
         "" => String::new(),
@@ -124,14 +124,12 @@ pub fn trace(
         ..collection.work
     };
     trace.branches = collection.branches;
-<<<<<<< HEAD
-    if follower.missed.get() > 0 && !options.interrupt.is_raised() {
-=======
-    for (value, warning) in follower.told.take() {
-        trace.warnings.push(format!("first where {} = {value:.6e}{}: {warning}", parameter.name, collection.unit));
+    for (value, warning) in follower.remarks.take() {
+        trace
+            .warnings
+            .push(format!("first where {} = {value:.6e}{}: {warning}", parameter.name, collection.unit));
     }
-    if follower.missed.get() > 0 {
->>>>>>> ad557ea (Find critical values on either side, count turning on, and follow branches where several directions give way)
+    if follower.missed.get() > 0 && !options.interrupt.is_raised() {
         trace.warnings.push(format!(
             "{} events or stops were passed but could not be placed; take more steps",
             follower.missed.get()
@@ -350,7 +348,7 @@ fn switch(traced: &mut Traced<'_>, follower: &mut Follower<'_>, most: usize, col
                     Err(stall) => Leg {
                         points: Vec::new(),
                         met: Vec::new(),
-                        end: follower.ended(super::leg::stalled(&stall)),
+                        end: follower.ended(super::ends::stalled(&stall)),
                         refused: 0,
                     },
                 });

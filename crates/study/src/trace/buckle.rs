@@ -51,29 +51,25 @@ pub fn buckle(
     }
     prepared.add_tangents(&mut solution, &[]);
     refuse(&prepared, model, family, study, &solution)?;
-    if bent(&solution) > BENT {
+    let is_bent = bent(&solution) > BENT;
+    if is_bent {
         solution.warnings.push(
             "other loads bend the mechanism already; what linear buckling says of a bent state may be off, so trace the parameter, too"
                 .to_string(),
         );
     }
-    let failed = |failure| match failure {
-        Failure::Problem(error) => error,
-        Failure::Critical => wrong(
-            "is linearised about an equilibrium that is itself critical".to_string(),
-            "choose another value of `at`",
-        ),
-        Failure::Breakdown => wrong(
-            "has no sound numbers beside the equilibrium that it is linearised about".to_string(),
-            "trace the load instead",
-        ),
-    };
-    let width = prepared.difference(family, study, PARTS[0]).map_err(failed)?;
-    let mut unsure = 0;
-    if let Some(width) = width {
-        (buckling.modes, unsure) =
-            modes(&mut prepared, family, study, width, &solution).map_err(failed)?;
+    let width = prepared.difference(family, study, PARTS[0]);
+    let found = width.and_then(|width| match width {
+        Some(width) => modes(&mut prepared, family, study, width, &solution),
+        None => Ok((Vec::new(), 0)),
+    });
+    if options.interrupt.is_raised() {
+        let reason = "interrupted before the critical values were found".to_string();
+        (solution.status, solution.reason) = (Status::Interrupted, Some(reason));
+        return Ok(Buckling { solution, ..buckling });
     }
+    let unsure;
+    (buckling.modes, unsure) = found.map_err(failed)?;
     if unsure > 0 {
         solution.warnings.push(format!(
             "{unsure} critical values are left out, for they change by more than a tenth when beams are cut into more stretches; trace the \
@@ -84,8 +80,22 @@ pub fn buckle(
     } else if buckling.modes.len() < study.count.max(1) {
         solution.warnings.push(format!("only {} critical values were found", buckling.modes.len()));
     }
-    solution.warnings.extend(path::compared(model, family, study, &buckling.modes, options));
+    solution.warnings.extend(path::compared(model, family, study, (&buckling.modes, is_bent), options));
     Ok(Buckling { solution, ..buckling })
+}
+
+fn failed(failure: Failure) -> ProblemError {
+    match failure {
+        Failure::Problem(error) => error,
+        Failure::Critical => wrong(
+            "is linearised about an equilibrium that is itself critical".to_string(),
+            "choose another value of `at`",
+        ),
+        Failure::Breakdown => wrong(
+            "has no sound numbers beside the equilibrium that it is linearised about".to_string(),
+            "trace the load instead",
+        ),
+    }
 }
 
 fn wrong(why: String, hint: &str) -> ProblemError {
@@ -146,7 +156,11 @@ fn refuse(
 /// Why a mechanism has no critical value.
 fn nothing(model: &Model) -> String {
     let sprung = |joint: &Joint| {
-        joint.law.coordinates.iter().any(|law| law.stiffness != 0.0 || law.limits.is_some_and(|l| l.stiffness.is_some()))
+        joint
+            .law
+            .coordinates
+            .iter()
+            .any(|law| law.stiffness != 0.0 || law.limits.is_some_and(|l| l.stiffness.is_some()))
     };
     if model.beams.is_empty() && model.springs.is_empty() && !model.joints.iter().any(sprung) {
         "nothing in it can buckle: it has no beam, no spring and no joint with a stiffness".to_string()
@@ -166,36 +180,10 @@ fn modes(
     let wanted = study.count.max(1);
     let mut coarser: Vec<Vec<f64>> = Vec::with_capacity(PARTS.len());
     let (mut modes, mut unsure) = (Vec::new(), 0);
+    // What the load does about a stretched state is taken as about one that is not.
+    let strains = solution.beams.iter().flat_map(|beam| &beam.samples).map(|sample| sample.strain.x.abs());
+    let shortened = study.at.abs() * strains.fold(0.0, f64::max);
     for parts in PARTS {
-<<<<<<< HEAD
-        let mut pencil = match prepared.pencil(family, study, parts) {
-            Ok(pencil) => pencil,
-            Err(_) if options.interrupt.is_raised() => {
-                let reason = "interrupted before the critical values were found".to_string();
-                (solution.status, solution.reason) = (Status::Interrupted, Some(reason));
-                return Ok(Buckling { parameter: study.parameter, at: study.at, solution, modes: Vec::new() });
-            }
-            Err(Failure::Breakdown(breakdown)) => return Err(critical(breakdown)),
-            Err(Failure::Problem(error)) => return Err(error),
-        };
-        let size = pencil.base.size();
-        let found = ritz::smallest(&mut |x| pencil.apply(x), size, 2 * wanted + 4);
-        let beyond = found.iter().any(|(value, _)| *value > 0.0);
-        let mut found: Vec<_> = found.into_iter().filter(|(value, _)| (*value > 0.0) == beyond).collect();
-        found.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-        found.truncate(wanted);
-        if levels.len() + 1 == PARTS.len() {
-            for (i, (value, x)) in found.iter().enumerate() {
-                let (value, error_estimate) = romberg(&levels, i, *value);
-                if error_estimate > UNSURE * value.abs() {
-                    unsure += 1;
-                    continue;
-                }
-                let (bodies, places) = prepared.problem.motions_of(&pencil.base, x);
-                let direction = mode(&solution, bodies, &places, prepared.problem.units().0);
-                modes.push(BucklingMode { value: study.at + value, error_estimate, direction });
-            }
-=======
         let mut pencil = prepared.pencil(family, study, parts, width)?;
         let mut found = pencil.nearest(2 * wanted + 4);
         // Of a pair on either side the one beyond comes first.
@@ -209,7 +197,8 @@ fn modes(
             continue;
         }
         for (value, x) in found.iter().take(wanted) {
-            let (value, error_estimate) = romberg(&mut coarser, *value);
+            let (value, error) = romberg(&mut coarser, *value);
+            let error_estimate = error + shortened;
             if error_estimate > UNSURE * value.abs() {
                 unsure += 1;
                 continue;
@@ -217,7 +206,6 @@ fn modes(
             let (bodies, places) = prepared.problem.motions_of(&pencil.base, x);
             let direction = mode(solution, bodies, &places, prepared.problem.units().0);
             modes.push(BucklingMode { value: study.at + value, error_estimate, direction });
->>>>>>> ad557ea (Find critical values on either side, count turning on, and follow branches where several directions give way)
         }
     }
     Ok((modes, unsure))
@@ -277,155 +265,3 @@ fn romberg(coarser: &mut [Vec<f64>], finest: f64) -> (f64, f64) {
     // Where stretches of no compliance stiffen the matrix, round-off has its part in it.
     (b + better, 4.0 * better.abs() + 1e-6 * b.abs())
 }
-<<<<<<< HEAD
-
-enum Failure {
-    Breakdown(Breakdown),
-    Problem(ProblemError),
-}
-
-impl From<Breakdown> for Failure {
-    fn from(breakdown: Breakdown) -> Self {
-        Failure::Breakdown(breakdown)
-    }
-}
-
-/// H0 factorised, and the two sides of the difference.
-struct Pencil {
-    base: Variation,
-    sides: [Variation; 2],
-    width: f64,
-    work: Vec<f64>,
-}
-
-impl Pencil {
-    /// `x ← -H0⁻¹ H1 x`, whose eigenvalues are 1/μ.
-    fn apply(&mut self, x: &mut [f64]) {
-        self.work.clear();
-        self.work.resize(x.len(), 0.0);
-        let factor = -0.5 / self.width;
-        self.sides[0].multiply(-factor, x, &mut self.work);
-        self.sides[1].multiply(factor, x, &mut self.work);
-        x.copy_from_slice(&self.work);
-        self.base.solve(x);
-    }
-}
-
-impl Prepared {
-    /// The equilibrium under a fraction of all loads and drives.
-    fn part_of_load(&mut self, fraction: f64, tolerance: f64) -> Result<crate::Outcome, ProblemError> {
-        self.problem.rest();
-        let newton = NewtonOptions { tolerance: 1e-9, iterations: 30, nearest: f64::INFINITY };
-        for i in 1..=LOAD_STEPS {
-            self.problem.set_load(fraction * i as f64 / LOAD_STEPS as f64);
-            self.problem.renew();
-            if !matches!(converge(&mut self.problem, &newton), NewtonEnd::Converged { .. }) {
-                if self.problem.is_interrupted() {
-                    return Ok(self.interrupted(flexura_nonlinear::PathWork::default()));
-                }
-                return Err(ProblemError::new(
-                    "study",
-                    format!("finds no equilibrium under {fraction} of the load"),
-                    "choose a smaller value of `at`",
-                ));
-            }
-        }
-        Ok(self.finish(tolerance, flexura_nonlinear::PathWork::default(), f64::INFINITY))
-    }
-
-    fn pencil(
-        &mut self,
-        family: &mut dyn Family,
-        study: &BuckleStudy,
-        parts: usize,
-    ) -> Result<Pencil, Failure> {
-        self.problem.linearise()?;
-        let along = match study.parameter {
-            Some(parameter) => {
-                let size = size_of(self.problem.model(), parameter, self.problem.units(), SMALL);
-                self.state_slope(family, parameter, study.at, 1e-3 * size).map_err(|error| match error {
-                    crate::SensitivityError::Model(error) => Failure::Problem(error),
-                    crate::SensitivityError::Tangent(breakdown) => Failure::Breakdown(breakdown),
-                    crate::SensitivityError::Output(_) => Failure::Breakdown(Breakdown::NotFinite),
-                })?
-            }
-            None => self.problem.response()?,
-        };
-        let size = self.problem.size(&along);
-        // Where all forces are known the state does not show them.
-        let one = match study.parameter {
-            Some(parameter) => size_of(self.problem.model(), parameter, self.problem.units(), 1.0),
-            None => 1.0,
-        };
-        let width = if size > 0.0 { (CHANGE / size).min(one) } else { CHANGE * one };
-        let mut base = self.problem.variation(parts)?;
-        let misfit = Failure::Breakdown(Breakdown::Singular);
-        let mut sides =
-            |prepared: &mut Self, step: &[f64], width: f64, stressed: Option<&Rate>| -> Result<_, Failure> {
-                let minus = prepared.beside(family, study, parts, step, -width, stressed)?;
-                let plus = prepared.beside(family, study, parts, step, width, stressed)?;
-                Ok([minus, plus])
-            };
-        // How section moments change on the way, then the same wrenches with the shape as it is.
-        let moved = sides(self, &along, width, None)?;
-        if !moved.iter().all(|side| side.fits(&base)) {
-            return Err(misfit);
-        }
-        let rate = Variation::rate(&moved[0], &moved[1], width);
-        let width = STRESS * width;
-        let sides = sides(self, &self.problem.wrench_part(&along), width, Some(&rate))?;
-        if !sides.iter().all(|side| side.fits(&base)) {
-            return Err(misfit);
-        }
-        base.factorise()?;
-        Ok(Pencil { base, sides, width, work: Vec::new() })
-    }
-
-    /// The second variation beside the present state: `by` times the step away, at a parameter that differs by `by`. With the rate
-    /// of the section moments the shape is kept.
-    fn beside(
-        &mut self,
-        family: &mut dyn Family,
-        study: &BuckleStudy,
-        parts: usize,
-        step: &[f64],
-        by: f64,
-        stressed: Option<&Rate>,
-    ) -> Result<Variation, Failure> {
-        let mut kept = Vec::new();
-        self.problem.store(&mut kept);
-        let load = self.problem.load_fraction();
-        let own = match study.parameter {
-            Some(parameter) => {
-                let model =
-                    family.model(&self.values_with(parameter, study.at + by)).map_err(Failure::Problem)?;
-                let law = self.problem.neighbour(&model).map_err(Failure::Problem)?;
-                Some(self.problem.exchange(law))
-            }
-            None => {
-                self.problem.set_load(load + by);
-                None
-            }
-        };
-        if stressed.is_some() {
-            // Drives stay where they are, too.
-            self.problem.restore(&kept);
-        }
-        let step: Vec<f64> = step.iter().map(|s| s * by).collect();
-        self.problem.retract(&step);
-        let side = match stressed {
-            Some(rate) => self.problem.stressed_variation(parts, rate, by),
-            None => self.problem.variation(parts),
-        };
-        match own {
-            Some(own) => {
-                self.problem.exchange(own);
-            }
-            None => self.problem.set_load(load),
-        }
-        self.problem.restore(&kept);
-        Ok(side?)
-    }
-}
-=======
->>>>>>> ad557ea (Find critical values on either side, count turning on, and follow branches where several directions give way)

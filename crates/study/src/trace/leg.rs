@@ -1,6 +1,7 @@
 //! One branch followed one way: points, what is special on it, and why it ends.
 
 use super::TraceProgress;
+use super::ends::{kind, stalled, why_short};
 use super::problem::{Snapshot, Traced};
 use super::record::{Reader, Reading, crossing, regular};
 use flexura_continuation::{Advance, Place, Point, Special, Stall, Tangent, Walker, between, sharpen};
@@ -57,7 +58,7 @@ pub(crate) struct Follower<'s> {
     /// Events and stops that were seen to be passed but could not be placed.
     pub missed: std::cell::Cell<usize>,
     /// What there is to know of the states on the path, with the parameter where each was first said.
-    pub told: std::cell::RefCell<Vec<(f64, String)>>,
+    pub remarks: std::cell::RefCell<Vec<(f64, String)>>,
 }
 
 /// Regular points between two whose whole state is kept.
@@ -119,7 +120,7 @@ impl Follower<'_> {
         };
         let mut before = self.read(traced, walker);
         let mut start = walker.here().clone();
-        self.tell(traced.axes[0].value(start.point.parameters[0]), &before.warnings);
+        self.remark(traced.axes[0].value(start.point.parameters[0]), &before.warnings);
         let from_start = matches!(first, First::Start);
         let mut point =
             regular(traced.axes[0].value(start.point.parameters[0]), &start, before.clone(), error);
@@ -154,7 +155,7 @@ impl Follower<'_> {
                 Advance::To(specials) => specials,
                 Advance::Stalled(stall) => {
                     self.close(traced, walker, leg);
-                    return self.end_at(traced, leg, &stall, away);
+                    return self.end_at(traced, walker, leg, &stall, away);
                 }
             };
             steps += 1;
@@ -169,7 +170,7 @@ impl Follower<'_> {
                     Ok(place) => Some(place),
                     Err(stall) => {
                         self.close(traced, walker, leg);
-                        return self.end_at(traced, leg, &stall, away);
+                        return self.end_at(traced, walker, leg, &stall, away);
                     }
                 }
             } else {
@@ -191,7 +192,7 @@ impl Follower<'_> {
                 }
             };
             let value = if last.is_some() { limit } else { scaled };
-            self.tell(traced.axes[0].value(value), &reading.warnings);
+            self.remark(traced.axes[0].value(value), &reading.warnings);
             let inside = |special: &Special| (-EDGE..=1.0 + EDGE).contains(&special.point.parameters[0]);
             let mut passed: Vec<(f64, Passed)> = Vec::new();
             for special in specials.into_iter().filter(inside) {
@@ -288,15 +289,24 @@ impl Follower<'_> {
 
     /// Why a leg ends that cannot go on: at the very end of the range there may be no regular point, for a load that goes to nothing can
     /// leave something free.
-    fn end_at(&self, traced: &mut Traced<'_>, leg: &Leg, stall: &Stall, away: bool) -> BranchEnd {
+    fn end_at(
+        &self,
+        traced: &mut Traced<'_>,
+        walker: &Walker,
+        leg: &Leg,
+        stall: &Stall,
+        away: bool,
+    ) -> BranchEnd {
         let at = leg.points.last().map_or(0.5, |point| traced.axes[0].scaled(point.parameter));
         if away && at.abs().min((at - 1.0).abs()) <= ARRIVED {
             return BranchEnd::Range;
         }
-        let ends = traced.problem().contact_ends();
         match stall {
-            Stall::Short if !ends.is_empty() => BranchEnd::Stalled(ends.join(", and ")),
-            _ => stalled(stall),
+            Stall::Short => match why_short(traced, walker.here()) {
+                Some(why) => BranchEnd::Stalled(why),
+                None => stalled(stall),
+            },
+            Stall::Parameter(_) => stalled(stall),
         }
     }
 
@@ -341,11 +351,11 @@ impl Follower<'_> {
     }
 
     /// Keeps warnings of a point on the path, each kind once.
-    fn tell(&self, value: f64, warnings: &[String]) {
-        let mut told = self.told.borrow_mut();
+    fn remark(&self, value: f64, warnings: &[String]) {
+        let mut remarks = self.remarks.borrow_mut();
         for warning in warnings {
-            if !told.iter().any(|(_, known)| kind(known) == kind(warning)) {
-                told.push((value, warning.clone()));
+            if !remarks.iter().any(|(_, known)| kind(known) == kind(warning)) {
+                remarks.push((value, warning.clone()));
             }
         }
     }
@@ -561,23 +571,4 @@ impl Follower<'_> {
             Stop::Event(n) => count(&|k| !matches!(k, PointKind::Regular | PointKind::End)) >= *n,
         })
     }
-}
-
-/// A warning without its numbers.
-fn kind(warning: &str) -> String {
-    warning.split(|c: char| c == ' ' || c == ',').filter(|word| !starts_as_number(word)).collect()
-}
-
-fn starts_as_number(word: &str) -> bool {
-    word.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit())
-}
-
-pub(crate) fn stalled(stall: &Stall) -> BranchEnd {
-    BranchEnd::Stalled(match stall {
-        Stall::Short => {
-            "the steps along the path became too short: something jumps there, or many critical points lie close together"
-                .to_string()
-        }
-        Stall::Parameter(why) => why.clone(),
-    })
 }

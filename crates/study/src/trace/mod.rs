@@ -5,6 +5,7 @@
 mod branches;
 mod buckle;
 mod critical;
+mod ends;
 mod leg;
 mod line;
 mod path;

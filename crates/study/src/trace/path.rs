@@ -22,12 +22,12 @@ struct Seen {
     unstable: Option<usize>,
 }
 
-/// What is to be said of the nearest value.
+/// What is to be said of the nearest value; nothing of a path that bends and becomes unstable as it should where a bent start was told of.
 pub(super) fn compared(
     model: &Model,
     family: &mut dyn Family,
     study: &BuckleStudy,
-    modes: &[BucklingMode],
+    (modes, is_told): (&[BucklingMode], bool),
     options: &Options,
 ) -> Option<String> {
     let nearest = modes.first()?.value - study.at;
@@ -50,6 +50,7 @@ pub(super) fn compared(
     let told = modes.iter().filter(within).count();
     let beyond = at(BEYOND).and_then(|beyond| beyond.unstable);
     Some(match (before.unstable, beyond) {
+        (Some(a), Some(b)) if b >= a + told && is_told => return None,
         (Some(a), Some(b)) if b >= a + told => bends,
         (Some(a), Some(b)) => format!(
             "{bends}, and the path itself has {a} unstable directions there and {b} at eleven tenths: nothing of the kind gives way on it; \
@@ -71,6 +72,7 @@ fn see(
         Some(parameter) => Prepared::new(&family.model(&[(parameter, value)]).ok()?).ok()?,
         None => Prepared::new(model).ok()?,
     };
+    prepared.heed(&options.interrupt);
     let outcome = match study.parameter {
         Some(_) => prepared.solve(options.tolerance, &mut |_| {}),
         None => prepared.part_of_load(value, options.tolerance).ok()?,

@@ -91,6 +91,9 @@ impl Prepared {
             self.problem.set_load(fraction * i as f64 / LOAD_STEPS as f64);
             self.problem.renew();
             if !matches!(converge(&mut self.problem, &newton), NewtonEnd::Converged { .. }) {
+                if self.problem.is_interrupted() {
+                    return Ok(self.interrupted(flexura_nonlinear::PathWork::default()));
+                }
                 return Err(ProblemError::new(
                     "study",
                     format!("finds no equilibrium under {fraction} of the load"),
@@ -117,7 +120,9 @@ impl Prepared {
         for _ in 0..TRIES {
             let mut pencil = match self.pencil(family, study, parts, width) {
                 Ok(pencil) => pencil,
-                Err(Failure::Critical) => return Err(Failure::Critical),
+                Err(failure) if matches!(failure, Failure::Critical) || self.problem.is_interrupted() => {
+                    return Err(failure);
+                }
                 Err(failure) => {
                     failed = width;
                     width *= SMALLER;
@@ -170,12 +175,15 @@ impl Prepared {
             }
             None => self.problem.response().map_err(|_| Failure::Critical)?,
         };
-        let mut sides =
-            |prepared: &mut Self, step: &[f64], width: f64, stressed: Option<&Rate>| -> Result<_, Failure> {
-                let minus = prepared.beside(family, study, parts, step, -width, stressed)?;
-                let plus = prepared.beside(family, study, parts, step, width, stressed)?;
-                if minus.fits(&base) && plus.fits(&base) { Ok([minus, plus]) } else { Err(Failure::Breakdown) }
-            };
+        let mut sides = |prepared: &mut Self,
+                         step: &[f64],
+                         width: f64,
+                         stressed: Option<&Rate>|
+         -> Result<_, Failure> {
+            let minus = prepared.beside(family, study, parts, step, -width, stressed)?;
+            let plus = prepared.beside(family, study, parts, step, width, stressed)?;
+            if minus.fits(&base) && plus.fits(&base) { Ok([minus, plus]) } else { Err(Failure::Breakdown) }
+        };
         // How section moments change on the way, then the same wrenches with the shape as it is.
         let size = self.problem.size(&along);
         let short = (width / STRESS).min(if size > 0.0 { CHANGE / size } else { f64::INFINITY });

@@ -78,11 +78,7 @@ impl Reader {
                 }
             })
             .collect();
-<<<<<<< HEAD
-        Reading { values: flexura_post::output_values(model, solution), left }
-=======
-        Reading { outputs, left, warnings: Vec::new() }
->>>>>>> ad557ea (Find critical values on either side, count turning on, and follow branches where several directions give way)
+        Reading { values: flexura_post::output_values(model, solution), left, warnings: Vec::new() }
     }
 
     /// The whole present state.
