@@ -5,7 +5,7 @@
 //! - `walker`: step by step along a path, with what was passed;
 //! - `reduced`: the surface of two numbers on which a fold or branch point lies;
 //! - `locate`: folds and simple branch points on it, and the directions of the branches;
-//! - `multiple`: points where several directions become critical at once;
+//! - `multiple`: points where several directions become critical at once, and `spread`: what leaves them;
 //! - `critical`: folds and branch points followed in a second parameter.
 //!
 //! Nothing here knows of beams.
@@ -16,6 +16,7 @@ mod locate;
 mod multiple;
 mod problem;
 mod reduced;
+mod spread;
 #[cfg(test)]
 mod tests;
 mod walker;
@@ -24,4 +25,5 @@ pub use corrector::between;
 pub use critical::{CriticalEnd, CriticalWalker};
 pub use locate::{Crossing, Special, sharpen};
 pub use problem::{Parameters, Point, Problem, Refusal, Tangent, slope};
+pub use spread::{Spread, spread};
 pub use walker::{Advance, Place, Stall, WalkOptions, WalkWork, Walker};

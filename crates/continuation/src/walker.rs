@@ -484,7 +484,11 @@ fn stall(refusal: Refusal) -> Stall {
 }
 
 /// The longest step in a direction that the options allow.
-fn largest<S: flexura_nonlinear::Liftable>(system: &S, tangent: &Tangent, options: &WalkOptions) -> f64 {
+pub(crate) fn largest<S: flexura_nonlinear::Liftable>(
+    system: &S,
+    tangent: &Tangent,
+    options: &WalkOptions,
+) -> f64 {
     let by_change = options.largest_change / system.size(&tangent.step).max(1e-12);
     let by_turning = options.largest_change / system.turning(&tangent.step).max(1e-12);
     let by_parameter = options.largest_parameter / tangent.parameter.abs().max(1e-12);

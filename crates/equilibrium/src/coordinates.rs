@@ -4,6 +4,7 @@ use crate::scale::Scale;
 use flexura_mechanics::joint::{Configuration, ContactError, Joint, Kinematics, MAX_FREEDOMS};
 use flexura_model::{CoordinateKind, CoordinateLaw, Drive, JointKind, JointLaw};
 use flexura_spatial::{Pose, Twist, Vector3};
+use std::f64::consts::TAU;
 
 /// A joint's kinematics with what acts on its coordinates, nondimensional.
 #[derive(Clone, Debug)]
@@ -17,6 +18,8 @@ pub(crate) struct Coordinates {
     free: Vec<usize>,
     /// A ball whose turning about one line (in M's axes) is held: the two lines left.
     pub spin_held: Option<[Vector3<f64>; 2]>,
+    /// Does a coupling act on a coordinate?
+    pub coupled: bool,
     /// What to multiply each coordinate with to get its SI value.
     pub units: [f64; MAX_FREEDOMS],
 }
@@ -53,6 +56,7 @@ impl Coordinates {
             laws,
             free,
             spin_held: None,
+            coupled: false,
             units,
         }
     }
@@ -136,6 +140,7 @@ impl Coordinates {
         self.joint.moved(configuration, &full)
     }
 
+    /// The step from one configuration to another; of an angle on which nothing depends the shorter way round.
     pub fn step(&self, from: &Configuration, to: &Configuration, out: &mut [f64]) {
         let full = self.joint.step(from, to);
         match &self.spin_held {
@@ -147,10 +152,25 @@ impl Coordinates {
             }
             None => {
                 for (o, i) in out.iter_mut().zip(&self.free) {
-                    *o = full[*i];
+                    *o = if self.comes_round(*i) {
+                        full[*i] - TAU * (full[*i] / TAU).round()
+                    } else {
+                        full[*i]
+                    };
                 }
             }
         }
+    }
+
+    /// Is the mechanism the same after coordinate `i` has gone round once?
+    fn comes_round(&self, i: usize) -> bool {
+        let law = &self.laws[i];
+        let acts = law.stiffness != 0.0 || law.limits.is_some_and(|limits| limits.stiffness.is_some());
+        let about_an_axis = matches!(
+            self.kind,
+            JointKind::Revolute | JointKind::Cylindrical | JointKind::Universal | JointKind::Planar
+        );
+        about_an_axis && self.kind.coordinate_kinds()[i] == CoordinateKind::Angle && !acts && !self.coupled
     }
 
     /// The configuration with the driven coordinates at `load` times the way from rest to their values.
@@ -236,11 +256,9 @@ impl Coordinates {
     fn coordinates(&self, configuration: &Configuration, load: f64) -> [f64; MAX_FREEDOMS] {
         let start = self.joint.coordinates(&self.initial);
         let mut q = self.joint.coordinates(configuration);
-        if self.laws.iter().all(|law| matches!(law.drive, Drive::Driven { .. })) {
-            for ((value, law), start) in q.iter_mut().zip(&self.laws).zip(start) {
-                if let Drive::Driven { coordinate } = law.drive {
-                    *value = start + load * (coordinate - start);
-                }
+        for ((value, law), start) in q.iter_mut().zip(&self.laws).zip(start) {
+            if let Drive::Driven { coordinate } = law.drive {
+                *value = start + load * (coordinate - start);
             }
         }
         q

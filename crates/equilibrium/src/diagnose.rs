@@ -50,7 +50,7 @@ impl Equilibrium {
         }
     }
 
-    fn span_name(&self, span: usize) -> String {
+    pub(crate) fn span_name(&self, span: usize) -> String {
         format!("beam.{}", self.model.beams[self.lowered.spans[span].beam].name)
     }
 

@@ -156,6 +156,13 @@ impl BeamLaw {
         self.scale.length * self.scale.length / self.scale.force
     }
 
+    /// L over the length in which what a foundation under a beam feels dies away: (k/4EI)^¼ L along the beam, or √(k/EA) L.
+    pub fn foundation_growth(&self) -> f64 {
+        let push = self.foundation_stiffness([0.0, self.length]);
+        let length = self.length / self.scale.length;
+        length * (0.25 * push * self.soft()).powf(0.25).max((push * self.yields()).sqrt())
+    }
+
     /// Largest stiffness at rest between two arc lengths, nondimensional.
     pub fn foundation_stiffness(&self, [a, b]: [f64; 2]) -> f64 {
         if !self.founded.meets([a, b], self.length) {

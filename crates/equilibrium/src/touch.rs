@@ -1,11 +1,14 @@
 //! What a state says about its contacts: whether they hold, and where their boundaries end.
 
 use crate::system::Equilibrium;
-use flexura_model::CoordinateKind;
+use flexura_model::{CoordinateKind, JointKind};
 use flexura_spatial::Vector3;
 
 /// A pull smaller than this, relative to the wrench in the joint, is round-off.
 const PULL: f64 = 1e-9;
+
+/// Cosine of a universal joint's second angle below which it counts as a right one.
+const LOCKED: f64 = 0.05;
 
 impl Equilibrium {
     /// Contacts that pull, and hollows that are too narrow.
@@ -53,5 +56,30 @@ impl Equilibrium {
             }
         }
         ends
+    }
+
+    /// Universal joints and holds near a right angle, for the reason why a way ended: there the first axis lies along what the joint
+    /// carries, and no torque about that passes.
+    pub fn locked_joints(&self) -> Vec<String> {
+        let joints = self.lowered.joints.iter().zip(&self.layout.joints).enumerate();
+        let joints =
+            joints.map(|(i, (joint, slots))| (self.joint_name(i), &joint.coordinates, &slots.coordinates));
+        let spans = self.lowered.spans.iter().zip(&self.layout.spans).enumerate();
+        let holds = spans.flat_map(|(i, (span, slots))| {
+            let end = span
+                .end
+                .as_ref()
+                .map(|end| (format!("{}.end", self.span_name(i)), &end.coordinates, &slots.end));
+            std::iter::once((format!("{}.start", self.span_name(i)), &span.start.coordinates, &slots.start))
+                .chain(end)
+        });
+        joints
+            .chain(holds)
+            .filter(|(_, coordinates, _)| coordinates.kind == JointKind::Universal)
+            .filter(|(_, _, slot)| self.configuration(slot)[1].cos().abs() < LOCKED)
+            .map(|(name, ..)| {
+                format!("{name}: its universal joint stands near a right angle, where it lets no torque about its shaft pass")
+            })
+            .collect()
     }
 }

@@ -34,7 +34,7 @@ pub fn render(model: &Model, study: &BuckleStudy, buckling: &Buckling) -> String
         Some(parameter) => format!("critical {}", parameter.name),
         None => "critical fraction of the load".to_owned(),
     };
-    let mut table = Table::new(&["modes", &heading, "relative error"]);
+    let mut table = Table::new(&["modes", &heading, "relative error of the linearised value"]);
     for (i, mode) in buckling.modes.iter().enumerate() {
         let relative =
             if mode.value == 0.0 { mode.error_estimate } else { mode.error_estimate / mode.value.abs() };

@@ -18,6 +18,11 @@ const SAME: f64 = 1e-6;
 /// Columns for outputs, so that a row fits on a screen.
 const MOST_OUTPUTS: usize = 4;
 
+const UNDECIDED: &str = "not decided";
+/// Why a single state of a mechanism whose stability can be decided has no verdict.
+const NEAR_CRITICAL: &str = "stability is not decided where another critical point, or the end of the path, is so near that round-off hides \
+                             the sign of a stiffness";
+
 /// The summary as text.
 pub fn render(model: &Model, study: &TraceStudy, trace: &Trace) -> String {
     let names = Names { model, study, trace, scales: scales(trace), largest: largest(model, trace) };
@@ -39,8 +44,10 @@ pub fn render(model: &Model, study: &TraceStudy, trace: &Trace) -> String {
         };
         text += &format!("\n{}\n", styled(DIM, &note));
     }
-    if let Some(reason) = &trace.stability_reason {
-        text += &format!("\nstability is not decided: {reason}\n");
+    match &trace.stability_reason {
+        Some(reason) => text += &format!("\nstability is not decided: {reason}\n"),
+        None if text.contains(UNDECIDED) => text += &format!("\n{NEAR_CRITICAL}\n"),
+        None => {}
     }
     text
 }
@@ -270,14 +277,19 @@ fn verdict(branch: &Branch, position: usize) -> String {
     if let Some(word) = word(point) {
         return word;
     }
-    let unknown = "not decided".to_owned();
+    let unknown = UNDECIDED.to_owned();
     if !point.kind.is_critical() {
         return unknown;
     }
-    // Beside another critical point there is no verdict either; a branch's end has one side only.
-    let side = |found: &TracePoint| word(found).unwrap_or_else(|| unknown.clone());
-    let before = position.checked_sub(1).and_then(|before| branch.points.get(before)).map(side);
-    let after = branch.points.get(position + 1).map(side);
+    // A state too near to the point for a verdict is passed over, another critical point is not; a branch's end has one side only.
+    let side = |points: &mut dyn Iterator<Item = &TracePoint>| {
+        let mut points = points.take_while(|point| !point.kind.is_critical()).peekable();
+        let beside = points.peek().is_some();
+        points.find_map(word).or(beside.then(|| unknown.clone()))
+    };
+    let neighbour = |at: Option<usize>| at.and_then(|at| branch.points.get(at)).map(|_| unknown.clone());
+    let before = side(&mut branch.points[..position].iter().rev()).or(neighbour(position.checked_sub(1)));
+    let after = side(&mut branch.points[position + 1..].iter()).or(neighbour(Some(position + 1)));
     match (before, after) {
         (Some(before), Some(after)) if before == after => before,
         (Some(before), Some(after)) => format!("{before} → {after}"),

@@ -155,6 +155,8 @@ pub struct Sample {
     pub outputs: Vec<Option<OutputResult>>,
     /// Strain energy, J.
     pub energy: Option<f64>,
+    /// Number of unstable directions; None where that is not decided.
+    pub unstable_directions: Option<usize>,
     /// Estimated largest relative error.
     pub error_estimate: Option<f64>,
     /// Outputs without a value, by their positions, and why.
@@ -280,6 +282,7 @@ impl<'a> Sweep<'a> {
             outputs: Vec::new(),
             output_reasons: Vec::new(),
             energy: None,
+            unstable_directions: None,
             error_estimate: None,
             reason: None,
             warnings: Vec::new(),
@@ -326,6 +329,7 @@ impl<'a> Sweep<'a> {
             }
         }
         sample.energy = Some(solution.energy);
+        sample.unstable_directions = solution.unstable_directions;
         sample.error_estimate = Some(solution.error_estimate);
         sample
     }

@@ -42,12 +42,13 @@ fn honest(mode: &BucklingMode, wanted: f64, what: &str) {
 fn columns_buckle_at_eulers_loads_whatever_they_bear_already() {
     for (file, ends) in COLUMNS {
         let loads = ends.loads(3);
-        // Past the first load the second is the nearest beyond.
-        for at in [0.0, 0.4 * loads[0], 0.9 * loads[0], 0.5 * (loads[0] + loads[1])] {
+        // Between two loads the nearer one comes first, whichever side it lies on.
+        for at in [0.0, 0.4 * loads[0], 0.9 * loads[0], 0.4 * loads[0] + 0.6 * loads[1]] {
             let found = buckled(&column(file), Some("push"), at, 2).unwrap();
-            let beyond: Vec<f64> = loads.iter().copied().filter(|load| *load > at).take(2).collect();
+            let mut nearest = loads.clone();
+            nearest.sort_by(|a, b| (a - at).abs().total_cmp(&(b - at).abs()));
             assert_eq!(found.modes.len(), 2);
-            for (mode, wanted) in found.modes.iter().zip(&beyond) {
+            for (mode, wanted) in found.modes.iter().zip(&nearest) {
                 honest(mode, *wanted, &format!("{file} at {at}"));
             }
         }
@@ -160,4 +161,75 @@ fn what_has_no_energy_is_refused() {
             assert!(why.contains("has no energy") && why.contains("load.tip"), "{load}, at {at}: {why}");
         }
     }
+}
+
+/// A cantilever column with bending stiffnesses EI and 2 EI; `along` is the force at its head per unit of `push`.
+fn two_stiffnesses(along: &str) -> String {
+    format!(
+        "format = 1\n[parameter]\npush = 0\n[section.s]\nshape = \"stiffness\"\nEA = 1e6\nGJ = 1\nEI2 = 2\nEI3 = 1\n\
+         [beam.column]\nsection = \"s\"\nlength = 1\nstart = {{ body = \"ground\", hold = \"clamp\" }}\n\
+         [load.head]\nbeam = \"column\"\nat = 1\nforce = [\"{along}\", 0, 0]\n"
+    )
+}
+
+/// (2n - 1)² π²/4 EI/L² and its double. The column is shortened by P/EA, 10⁻⁶ P, which the tolerance allows for at the value and at the
+/// state about which it is linearised.
+#[test]
+fn critical_values_come_nearest_first_from_either_side() {
+    let all = [1.0, 2.0, 9.0, 18.0, 25.0, 49.0, 50.0, 98.0].map(|factor| factor * PI * PI / 4.0);
+    for (along, sign) in [("-push", 1.0), ("push", -1.0)] {
+        for at in [0.0, 2.4, 2.5, 4.9, 20.0, 30.0] {
+            let found = buckled(&two_stiffnesses(along), Some("push"), sign * at, 4).unwrap();
+            let mut wanted = all;
+            wanted.sort_by(|a, b| (a - at).abs().total_cmp(&(b - at).abs()));
+            assert_eq!(found.modes.len(), 4, "{along} at {at}: {:?}", found.solution.warnings);
+            for (mode, wanted) in found.modes.iter().zip(&wanted) {
+                assert!(
+                    (sign * mode.value - wanted).abs() < 1e-4 * wanted,
+                    "{along} at {at}: {}",
+                    mode.value
+                );
+            }
+        }
+    }
+}
+
+/// π² EI/(4 L²) = 479,772 N, in both planes.
+#[test]
+fn critical_values_do_not_depend_on_the_size_of_the_load_that_is_named() {
+    let text = |load: f64| {
+        format!(
+            "format = 1\n[parameter]\npush = {load}\n[section.s]\nshape = \"stiffness\"\nEA = 2.1e9\nGJ = 1.15e6\nEI2 = 1.75e6\nEI3 = 1.75e6\n\
+             [beam.column]\nsection = \"s\"\nlength = 3\nstart = {{ body = \"ground\", hold = \"clamp\" }}\n\
+             [load.head]\nbeam = \"column\"\nat = 1\nforce = [\"-push\", 0, 0]\n"
+        )
+    };
+    let critical = PI * PI * 1.75e6 / 36.0;
+    for load in [1e-9, 1e-3, 1.0, 1e3, 4e5] {
+        for (parameter, wanted) in [(None, critical / load), (Some("push"), critical)] {
+            let found = buckled(&text(load), parameter, 0.0, 2).unwrap();
+            assert_eq!(found.modes.len(), 2, "{load} {parameter:?}: {:?}", found.solution.warnings);
+            for mode in &found.modes {
+                // The column is shortened by P/EA = 2.3e-4.
+                assert!((mode.value / wanted - 1.0).abs() < 5e-4, "{load} {parameter:?}: {}", mode.value);
+            }
+        }
+    }
+}
+
+/// Lateral buckling by an end force, 4.0126 √(EI GJ)/L² (S. P. Timoshenko and J. M. Gere, *Theory of Elastic Stability*, 2nd ed., 1961, art.
+/// 6.3), takes the strip as unbent. A round wire bends as easily in either plane, and never turns over.
+#[test]
+fn a_value_that_the_bent_path_does_not_bear_out_is_called_linearised() {
+    let wire = column("../crates/flexura/tests/models/round_wire_pulled_sideways.toml");
+    let found = buckled(&wire, Some("pull"), 0.0, 1).unwrap();
+    let bending = 200e9 * PI / 64.0 * 1e-12;
+    let torsion = 2.0 * bending / 2.6;
+    let wanted = 4.0126 * (bending * torsion).sqrt() / 0.04;
+    assert!((found.modes[0].value - wanted).abs() < 1e-4 * wanted, "{}", found.modes[0].value);
+    let said = found.solution.warnings.join("\n");
+    assert!(said.contains("linearised") && said.contains("0 unstable directions there and 0"), "{said}");
+    // A column that stays straight until it buckles needs no such word.
+    let found = buckled(&column("euler_clamped_free.toml"), Some("push"), 0.0, 1).unwrap();
+    assert!(found.solution.warnings.is_empty(), "{:?}", found.solution.warnings);
 }

@@ -244,11 +244,17 @@ impl Prepared {
         self.problem.rest();
     }
 
+    /// A load that is taken for a mistake: nothing is solved, and no mesh is made for it.
+    pub(crate) fn overloaded(&self) -> Option<Outcome> {
+        let excessive = self.problem.phase(1.0) > LARGEST_PHASE || self.problem.is_excessive(LARGEST_PHASE);
+        excessive.then(|| Outcome::ended(Ending::Excessive, PathWork::default()))
+    }
+
     /// From rest to the full load, then to `tolerance`.
     pub fn solve(&mut self, tolerance: f64, progress: &mut dyn FnMut(Progress)) -> Outcome {
         self.problem.rest();
-        if self.problem.phase(1.0) > LARGEST_PHASE || self.problem.is_excessive(LARGEST_PHASE) {
-            return Outcome::ended(Ending::Excessive, PathWork::default());
+        if let Some(outcome) = self.overloaded() {
+            return outcome;
         }
         let most = self.most_effort();
         self.problem.allow_effort(most);
@@ -451,6 +457,13 @@ pub fn solve_family(
             "the earlier result is too far from an equilibrium of this model; it was solved from rest"
                 .to_string(),
         );
+    }
+    if let Some(count @ 1..) = solution.unstable_directions {
+        solution.warnings.push(format!(
+            "the equilibrium is unstable in {count} {}: the mechanism does not stay there by itself; `flexura trace` shows where other \
+             branches leave its path",
+            if count == 1 { "direction" } else { "directions" }
+        ));
     }
     if outcome.status == Status::Converged {
         prepared.add_tangents(&mut solution, &options.compliances);

@@ -67,12 +67,7 @@ impl Walker {
             (true, false, None | Some(0 | 1)) => locate(problem, &bracket(), false),
             // The side branch of a pitchfork turns back where it meets the other.
             (false, true, None | Some(0 | 1)) => locate(problem, &bracket(), false),
-            (_, _, Some(count)) if depth == 0 && count > 1 => {
-                let tolerance = self.options.tolerance;
-                let length = to.arc - from.arc;
-                let from = From { point: &from.point, tangent: &from.tangent, length, tolerance };
-                locate_multiple(problem, &from, count)
-            }
+            (_, _, Some(count)) if depth == 0 && count > 1 => self.multiple(problem, from, to, count),
             _ => Ok(None),
         };
         if let Ok(Some(special)) = found {
@@ -83,9 +78,29 @@ impl Walker {
         }
         // Not in the middle, where symmetry likes to put what is sought.
         let middle = self.place_between(problem, from, to, 0.47).map_err(|_| ())?;
-        let mut all = self.passed(problem, from, &middle, whole, depth - 1)?;
-        all.extend(self.passed(problem, &middle, to, whole, depth - 1)?);
-        Ok(all)
+        let parts = self.passed(problem, from, &middle, whole, depth - 1).and_then(|mut all| {
+            all.extend(self.passed(problem, &middle, to, whole, depth - 1)?);
+            Ok(all)
+        });
+        match (parts, change) {
+            // The count, made on another mesh than J, changes beside the point at which J loses its ranks, far beside where the path turns.
+            (Err(()), Some(count @ 2..)) => {
+                self.multiple(problem, from, to, count).ok().flatten().map(|special| vec![special]).ok_or(())
+            }
+            (parts, _) => parts,
+        }
+    }
+
+    fn multiple<P: Problem>(
+        &self,
+        problem: &mut P,
+        from: &Place,
+        to: &Place,
+        count: usize,
+    ) -> Result<Option<Special>, Miss> {
+        let tolerance = self.options.tolerance;
+        let from = From { point: &from.point, tangent: &from.tangent, length: to.arc - from.arc, tolerance };
+        locate_multiple(problem, &from, count)
     }
 
     /// A point between two neighbouring points of the path.

@@ -79,6 +79,9 @@ pub(super) fn lower_coupling(
             factor * coordinates.joint.coordinates(&coordinates.initial)[*c]
         })
         .sum();
+    for (joint, ..) in &terms {
+        lowered.joints[*joint].coordinates.coupled = true;
+    }
     lowered.gears.push(Gear { terms, offset: [at_rest, coupling.offset / unit], unit });
     Ok(())
 }

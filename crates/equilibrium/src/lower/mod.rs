@@ -237,6 +237,7 @@ pub(crate) fn lower(
     }
     for i in 0..model.beams.len() {
         spans::lower_beam(model, &mut lowered, i)?;
+        bounded(model, &lowered, i)?;
     }
     for coupling in &model.couplings {
         attachments::lower_coupling(model, &mut lowered, coupling)?;
@@ -252,6 +253,21 @@ pub(crate) fn lower(
         lowered.nests.push(nest);
     }
     Ok(lowered)
+}
+
+/// Refuses a foundation for which a beam would have to be cut into more stretches than a computer holds.
+fn bounded(model: &Model, lowered: &Lowered, beam: usize) -> Result<(), ProblemError> {
+    let growth = lowered.beams[beam].foundation_growth();
+    if growth <= LARGEST_GROWTH {
+        return Ok(());
+    }
+    Err(ProblemError::new(
+        format!("beam.{}.foundation", model.beams[beam].name),
+        format!(
+            "what bends the beam dies away within 1/{growth:.0} of its length, and that is too short to be followed"
+        ),
+        "check the unit of its stiffness and the section's dimensions; so stiff a foundation is as good as a clamp",
+    ))
 }
 
 /// L of the longest beam and EI/L² of its softest stiffness; of the bodies' spread where there is no beam.
@@ -324,6 +340,9 @@ impl Lowered {
         self.beam_rest[beam] * self.scale.pose_in(&self.beams[beam].shape.pose(s))
     }
 }
+
+/// Lengths within which what a foundation feels dies away, along one beam, at most.
+const LARGEST_GROWTH: f64 = 1e4;
 
 /// Are two arc lengths on a beam the same place?
 fn near(a: f64, b: f64, length: f64) -> bool {

@@ -211,7 +211,7 @@ fn is_interrupted(sample: &Sample) -> bool {
     sample.status == SampleStatus::Solved(Status::Interrupted)
 }
 
-/// The table: varied parameters, status, what was found, outputs, energy, error estimate, reason.
+/// The table: varied parameters, status, what was found, outputs, stability, energy, error estimate, reason.
 struct Table<'a> {
     model: &'a Model,
     axes: &'a [Axis],
@@ -243,7 +243,8 @@ impl<'a> Table<'a> {
                 _ => header.push(headed(&output.name, &output.unit)),
             }
         }
-        header.extend(["energy [J]", "error_estimate", "reason", "warnings"].map(str::to_owned));
+        let last = ["stable", "unstable_directions", "energy [J]", "error_estimate", "reason", "warnings"];
+        header.extend(last.map(str::to_owned));
         csv_line(&header)
     }
 
@@ -263,6 +264,9 @@ impl<'a> Table<'a> {
                 None => row.extend(output.formulas.iter().map(|_| String::new())),
             }
         }
+        let unstable = sample.unstable_directions;
+        row.push(unstable.map_or_else(String::new, |count| (count == 0).to_string()));
+        row.push(unstable.map_or_else(String::new, |count| count.to_string()));
         row.extend([cell(sample.energy), cell(sample.error_estimate)]);
         let reasons: Vec<&str> = match &sample.reason {
             Some(reason) if sample.output_reasons.is_empty() => vec![reason],
@@ -302,6 +306,8 @@ struct SampleDocument<'a> {
     outputs: Named<Option<Value>>,
     #[serde(skip_serializing_if = "Named::is_empty")]
     output_reasons: Named<&'a str>,
+    stable: Option<bool>,
+    unstable_directions: Option<usize>,
     energy: Option<f64>,
     error_estimate: Option<f64>,
 }
@@ -347,6 +353,8 @@ impl<'a> SampleDocument<'a> {
             output_reasons: Named(
                 sample.output_reasons.iter().map(|(i, reason)| (output_name(*i), reason.as_str())).collect(),
             ),
+            stable: sample.unstable_directions.map(|count| count == 0),
+            unstable_directions: sample.unstable_directions,
             energy: sample.energy,
             error_estimate: sample.error_estimate,
         }

@@ -1,5 +1,5 @@
-//! No constraint: any position of M's origin in F and any turning, kept as a unit quaternion. H is the identity
-//! on shifts and turnings in F's axes; a user reads the position and the rotation vector.
+//! No constraint: any position of M's origin in F and any turning, kept as a ball joint keeps it. H is the identity on shifts and
+//! turnings in F's axes; a user reads the position and the rotation vector.
 
 use super::{Configuration, Kinematics, MAX_FREEDOMS, spherical::Spherical};
 use flexura_spatial::{Pose, Twist, Vector3};
@@ -8,11 +8,11 @@ pub(super) struct Free;
 
 /// The part of a configuration that is a rotation, as the configuration of a spherical joint.
 fn ball(q: &Configuration) -> Configuration {
-    [q[3], q[4], q[5], q[6], 0.0, 0.0, 0.0]
+    [q[3], q[4], q[5], 0.0, 0.0, 0.0, 0.0]
 }
 
 fn joined(position: [f64; 3], ball: &Configuration) -> Configuration {
-    [position[0], position[1], position[2], ball[0], ball[1], ball[2], ball[3]]
+    [position[0], position[1], position[2], ball[0], ball[1], ball[2], 0.0]
 }
 
 impl Kinematics for Free {

@@ -26,12 +26,12 @@ use flexura_model::{Contact, JointKind, JointLaw, SurfaceMotion, Surfaces};
 use flexura_spatial::{Pose, Twist, Vector3};
 use std::sync::Arc;
 
-/// Most numbers that the configuration of a joint takes (a position and a quaternion).
+/// Most numbers that the configuration of a joint takes (a rotation vector and a place), and one.
 pub const MAX_CONFIGURATION: usize = 7;
 /// Most coordinates that a joint has.
 pub const MAX_FREEDOMS: usize = 6;
 
-/// The configuration of a joint: coordinates, or a quaternion where coordinates would be singular.
+/// The configuration of a joint: coordinates, or the place itself where coordinates would be singular.
 pub type Configuration = [f64; MAX_CONFIGURATION];
 
 /// The kinematics of one kind of joint.

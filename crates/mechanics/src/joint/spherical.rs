@@ -1,19 +1,37 @@
-//! Turning about a point. The configuration is a unit quaternion, so no orientation is singular; H is the
-//! identity on turnings in F's axes, and a user reads the rotation vector.
+//! Turning about a point. The configuration is the rotation vector, which a user reads; turns beyond half a turn count on, for of all
+//! rotation vectors of an orientation the one next to the last is kept. H is the identity on turnings in F's axes, which are added to the
+//! orientation itself, so none is singular.
 
 use super::{Configuration, Kinematics, MAX_FREEDOMS};
-use flexura_spatial::{Pose, Quaternion, Twist, UnitQuaternion, Vector3, exp, left_jacobian_inverse, log};
+use flexura_spatial::{Pose, Twist, UnitQuaternion, Vector3, exp, left_jacobian_inverse, log};
+use std::f64::consts::TAU;
 
 pub(super) struct Spherical;
 
-fn rotation(configuration: &Configuration) -> UnitQuaternion<f64> {
-    let [w, x, y, z, ..] = *configuration;
-    UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
+/// Turning (rad) of which no axis can be told.
+const NO_AXIS: f64 = 1e-13;
+
+pub(super) fn vector(configuration: &Configuration) -> Vector3<f64> {
+    let [x, y, z, ..] = *configuration;
+    Vector3::new(x, y, z)
 }
 
-fn stored(rotation: &UnitQuaternion<f64>) -> Configuration {
-    let q = rotation.quaternion();
-    [q.w, q.i, q.j, q.k, 0.0, 0.0, 0.0]
+fn stored(v: &Vector3<f64>) -> Configuration {
+    [v.x, v.y, v.z, 0.0, 0.0, 0.0, 0.0]
+}
+
+/// The rotation vector of a rotation that is next to another: of all (θ + 2πk) a.
+fn next_to(rotation: &UnitQuaternion<f64>, last: &Vector3<f64>) -> Vector3<f64> {
+    let shortest = log(rotation);
+    let (angle, reached) = (shortest.norm(), last.norm());
+    if angle <= NO_AXIS {
+        // Whole turns, about the same axis as before.
+        let turns = (reached / TAU).round();
+        return if turns > 0.0 { last * (turns * TAU / reached) } else { shortest };
+    }
+    let axis = shortest / angle;
+    let turns = ((last.dot(&axis) - angle) / TAU).round();
+    if turns == 0.0 { shortest } else { axis * (angle + turns * TAU) }
 }
 
 /// c(θ) and c'(θ)/θ, by their series where the closed forms cancel.
@@ -35,10 +53,10 @@ fn series(angle: f64) -> (f64, f64) {
 
 impl Kinematics for Spherical {
     fn home(&self) -> Configuration {
-        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+        Configuration::default()
     }
     fn pose(&self, configuration: &Configuration) -> Pose {
-        Pose::new(rotation(configuration), Vector3::zeros())
+        Pose::new(exp(&vector(configuration)), Vector3::zeros())
     }
     fn subspace(&self, _: &Configuration, i: usize) -> Twist {
         let mut angular = Vector3::zeros();
@@ -46,18 +64,22 @@ impl Kinematics for Spherical {
         Twist { angular, linear: Vector3::zeros() }
     }
     fn moved(&self, configuration: &Configuration, step: &[f64]) -> Configuration {
-        stored(&(exp(&Vector3::new(step[0], step[1], step[2])) * rotation(configuration)))
+        let (last, step) = (vector(configuration), Vector3::new(step[0], step[1], step[2]));
+        if step == Vector3::zeros() {
+            return *configuration;
+        }
+        stored(&next_to(&(exp(&step) * exp(&last)), &last))
     }
     fn step(&self, from: &Configuration, to: &Configuration) -> [f64; MAX_FREEDOMS] {
-        let v = log(&(rotation(to) * rotation(from).inverse()));
+        let v = log(&(exp(&vector(to)) * exp(&vector(from)).inverse()));
         [v.x, v.y, v.z, 0.0, 0.0, 0.0]
     }
     fn coordinates(&self, configuration: &Configuration) -> [f64; MAX_FREEDOMS] {
-        let v = log(&rotation(configuration));
-        [v.x, v.y, v.z, 0.0, 0.0, 0.0]
+        let [x, y, z, ..] = *configuration;
+        [x, y, z, 0.0, 0.0, 0.0]
     }
     fn configuration(&self, coordinates: &[f64]) -> Configuration {
-        stored(&exp(&Vector3::new(coordinates[0], coordinates[1], coordinates[2])))
+        [coordinates[0], coordinates[1], coordinates[2], 0.0, 0.0, 0.0, 0.0]
     }
     /// The rotation vector v moves by `δv = J⁻¹(v) δθ` (J the left Jacobian), so efforts on v act as
     /// `J⁻ᵀ(v) τ = τ + ½ v×τ + c v×(v×τ)` with `c = 1/θ² - cot(θ/2)/(2θ)`, θ = |v|.
@@ -67,7 +89,7 @@ impl Kinematics for Spherical {
         tau: &[f64; MAX_FREEDOMS],
         slope: &[f64; MAX_FREEDOMS],
     ) -> ([f64; MAX_FREEDOMS], [[f64; MAX_FREEDOMS]; MAX_FREEDOMS]) {
-        let v = log(&rotation(configuration));
+        let v = vector(configuration);
         let t = Vector3::new(tau[0], tau[1], tau[2]);
         let (c, slope_of_c) = series(v.norm());
         let double = v.cross(&v.cross(&t));
@@ -88,6 +110,33 @@ impl Kinematics for Spherical {
         ([value.x, value.y, value.z, 0.0, 0.0, 0.0], tangent)
     }
     fn nearest(&self, pose: &Pose) -> Configuration {
-        stored(&pose.rotation)
+        stored(&log(&pose.rotation))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turning_counts_on_beyond_half_a_turn_and_whole_turns() {
+        let axis = Vector3::new(2.0, -1.0, 2.0) / 3.0;
+        for (step, count) in [(0.3, 70), (-0.3, 70), (TAU / 12.0, 36)] {
+            let mut here = Spherical.home();
+            for i in 1..=count {
+                here = Spherical.moved(&here, (axis * step).as_slice());
+                let wanted = axis * (step * f64::from(i));
+                assert!((vector(&here) - wanted).norm() < 1e-12, "{step} {i}: {here:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn it_is_left_past_whole_turns_about_another_axis_without_a_jump_of_the_pose() {
+        let driven = Spherical.configuration(&[0.0, 3.0 * TAU, 0.0]);
+        let moved = Spherical.moved(&driven, &[1e-3, 0.0, 0.0]);
+        assert!((log(&Spherical.pose(&moved).rotation) - Vector3::new(1e-3, 0.0, 0.0)).norm() < 1e-14);
+        assert!((vector(&moved).norm() - 3.0 * TAU).abs() < 0.01, "as many turns: {moved:?}");
+        assert_eq!(Spherical.moved(&driven, &[0.0; 3]), driven);
     }
 }

@@ -4,8 +4,10 @@ use super::{LawTable, Piece};
 use crate::ode::{NODES, STAGES};
 
 impl Piece {
-    /// Takes the curvature that a change of the section moment would cause out of the rest curvature: the piece stays as it is bent.
-    /// `change` is the change at both ends, in the section's axes; between them it is taken to go in a straight line.
+    /// The piece stays as it is bent: the curvature that a change of the section moment would cause is taken out of the rest curvature.
+    /// `change` is the change at both ends, in the section's axes; between them it is taken to go in a straight line. Nor does it
+    /// stretch: what a change of length does beside bending grows without bound as pieces become short. Couplings of stretching
+    /// with bending stay.
     pub fn straighten(&mut self, change: &[[f64; 3]; 2]) {
         let (steps, at) =
             (self.steps, |i: usize| ((i / STAGES) as f64 + NODES[i % STAGES]) / self.steps as f64);
@@ -19,6 +21,7 @@ impl Piece {
                 for (i, law) in laws.iter_mut().enumerate() {
                     let moment = moment(i);
                     (0..3).for_each(|k| law.k0[k] -= law.bend[k] * moment[k]);
+                    law.stretch = 0.0;
                 }
             }
             LawTable::Shearable(laws) => {
@@ -26,6 +29,7 @@ impl Piece {
                 for (i, law) in laws.iter_mut().enumerate() {
                     let moment = moment(i);
                     (0..3).for_each(|k| law.k0[k] -= law.bend[k] * moment[k]);
+                    law.shear[0] = 0.0;
                 }
             }
             LawTable::Coupled(laws) => {

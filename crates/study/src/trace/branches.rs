@@ -5,10 +5,10 @@ use super::problem::{Axis, Traced};
 use super::record::{Reader, without_value};
 use super::{TraceProgress, critical, search};
 use crate::{Family, Options, Prepared, ProblemError};
-use flexura_continuation::{Problem, Refusal, WalkOptions, Walker};
+use flexura_continuation::{Problem, Refusal, Spread, Tangent, WalkOptions, Walker, spread};
 use flexura_model::{Model, Stop, StudyKind, TraceStudy};
 use flexura_nonlinear::{NewtonOptions, System, converge};
-use flexura_solution::{Branch, BranchEnd, BranchOrigin, Crossing, PointKind, Status, Trace, TraceWork};
+use flexura_solution::{Branch, BranchEnd, BranchOrigin, PointKind, Status, Trace, TraceWork};
 use std::collections::VecDeque;
 
 /// A critical point of a branch, for later.
@@ -71,6 +71,7 @@ pub fn trace(
         told: 0,
         interrupt: options.interrupt.clone(),
         missed: Default::default(),
+        remarks: Default::default(),
     };
     let unit = match model.parameters[study.parameter].unit.as_str() {
         "" => String::new(),
@@ -124,6 +125,11 @@ pub fn trace(
     };
     trace.branches = collection.branches;
     trace.warnings.extend(without_value(&trace.branches));
+    for (value, warning) in follower.remarks.take() {
+        trace
+            .warnings
+            .push(format!("first where {} = {value:.6e}{}: {warning}", parameter.name, collection.unit));
+    }
     if follower.missed.get() > 0 && !options.interrupt.is_raised() {
         trace.warnings.push(format!(
             "{} events or stops were passed but could not be placed; take more steps",
@@ -272,7 +278,7 @@ fn add(
     points.iter_mut().for_each(|point| point.arc -= start);
     collection.branches.push(Branch { origin, points, ends: [first, plus.end] });
     for met in met {
-        let mut done = !met.simple || met.fold;
+        let mut done = met.fold;
         let branches = &mut collection.branches;
         for known in collection.known.iter_mut().filter(|known| !known.met.fold) {
             if same_point(branches, (known.branch, known.at), (branch, met.at)) {
@@ -280,16 +286,6 @@ fn add(
                 known.done = true;
                 done = true;
                 branches[branch].points[met.at].kind = branches[known.branch].points[known.at].kind.clone();
-            }
-        }
-        if !met.fold && !met.simple {
-            let point = &collection.branches[branch].points[met.at];
-            if let PointKind::Branch(Crossing::Multiple(count)) = point.kind {
-                collection.warnings.push(format!(
-                    "{count} directions give way at once where the parameter is {:.6e}{}: branches are followed only where one \
-                     does; give sections two different stiffnesses, or a small imperfection, to tell them apart",
-                    point.parameter, collection.unit
-                ));
             }
         }
         collection.known.push(Known { branch, at: met.at, met, done });
@@ -327,7 +323,10 @@ fn switch(traced: &mut Traced<'_>, follower: &mut Follower<'_>, most: usize, col
         }
         collection.known[position].done = true;
         let Known { branch, at, met, .. } = &collection.known[position];
-        let (branch, at, met) = (*branch, *at, met.clone());
+        let (branch, at, mut met) = (*branch, *at, met.clone());
+        if met.kernel.len() > 1 {
+            met.branches = several(traced, &options, &met, branch, at, collection);
+        }
         for tangent in &met.branches {
             follower.branch = collection.branches.len();
             let mut legs: Vec<Leg> = Vec::new();
@@ -350,7 +349,7 @@ fn switch(traced: &mut Traced<'_>, follower: &mut Follower<'_>, most: usize, col
                     Err(stall) => Leg {
                         points: Vec::new(),
                         met: Vec::new(),
-                        end: follower.ended(super::leg::stalled(&stall)),
+                        end: follower.ended(super::ends::stalled(&stall)),
                         refused: 0,
                     },
                 });
@@ -367,6 +366,41 @@ fn switch(traced: &mut Traced<'_>, follower: &mut Follower<'_>, most: usize, col
                 );
             }
             queue.extend(before..collection.known.len());
+        }
+    }
+}
+
+/// The branches at a point where several directions become critical at once.
+fn several(
+    traced: &mut Traced<'_>,
+    options: &WalkOptions,
+    met: &Met,
+    branch: usize,
+    at: usize,
+    collection: &mut Collection,
+) -> Vec<Tangent> {
+    let Some(snapshot) = &met.snapshot else { return Vec::new() };
+    traced.go_back(snapshot);
+    let value = collection.branches[branch].points[at].parameter;
+    let place = format!(
+        "{} directions give way at once where the parameter is {value:.6e}{}",
+        met.kernel.len(),
+        collection.unit
+    );
+    match spread(traced, options, &met.point, &met.kernel, &met.tangent) {
+        Spread::Branches(found) if found.is_empty() => {
+            collection.warnings.push(format!(
+                "{place}, and pushes along them led to no branch; give a small imperfection to tell them apart"
+            ));
+            Vec::new()
+        }
+        Spread::Branches(found) => found,
+        Spread::Family => {
+            collection.warnings.push(format!(
+                "{place}, and it may give way along any mixture of them, as something round does: none of these branches is followed; give \
+                 sections two different stiffnesses, or a small imperfection, to choose one"
+            ));
+            Vec::new()
         }
     }
 }

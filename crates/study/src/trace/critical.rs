@@ -47,7 +47,7 @@ pub(crate) fn follow(
     };
     let point = &collection.branches[known.branch].points[known.at];
     let kind = point.kind.clone();
-    if !known.met.simple {
+    if known.met.kernel.len() > 1 {
         collection.warnings.push(
             "a point at which several directions give way at once cannot be followed in a second parameter"
                 .to_string(),

@@ -1,6 +1,7 @@
 //! One branch followed one way: points, what is special on it, and why it ends.
 
 use super::TraceProgress;
+use super::ends::{kind, stalled, why_short};
 use super::problem::{Snapshot, Traced};
 use super::record::{Reader, Reading, crossing, regular};
 use flexura_continuation::{Advance, Place, Point, Special, Stall, Tangent, Walker, between, sharpen};
@@ -18,7 +19,10 @@ pub(crate) struct Met {
     pub point: Point,
     pub branches: Vec<Tangent>,
     pub fold: bool,
-    pub simple: bool,
+    /// Critical directions.
+    pub kernel: Vec<Vec<f64>>,
+    /// The direction of the path on which it was met.
+    pub tangent: Tangent,
 }
 
 /// What following came to.
@@ -53,6 +57,8 @@ pub(crate) struct Follower<'s> {
     pub interrupt: Interrupt,
     /// Events and stops that were seen to be passed but could not be placed.
     pub missed: std::cell::Cell<usize>,
+    /// What there is to know of the states on the path, with the parameter where each was first said.
+    pub remarks: std::cell::RefCell<Vec<(f64, String)>>,
 }
 
 /// Regular points between two whose whole state is kept.
@@ -114,6 +120,7 @@ impl Follower<'_> {
         };
         let mut before = self.read(traced, walker);
         let mut start = walker.here().clone();
+        self.remark(traced.axes[0].value(start.point.parameters[0]), &before.warnings);
         let from_start = matches!(first, First::Start);
         let mut point =
             regular(traced.axes[0].value(start.point.parameters[0]), &start, before.clone(), error);
@@ -135,6 +142,9 @@ impl Follower<'_> {
         leg.points.push(point);
         let mut since_kept = 0;
         let mut steps = 0;
+        let begins = start.point.parameters[0];
+        let edge = if begins > 0.5 { 1.0 } else { 0.0 };
+        let mut away = (begins - edge).abs() > ARRIVED;
         loop {
             let known = leg.points.len();
             if leg.points.len() >= self.study.most_points {
@@ -145,19 +155,22 @@ impl Follower<'_> {
                 Advance::To(specials) => specials,
                 Advance::Stalled(stall) => {
                     self.close(traced, walker, leg);
-                    return self.end_at(traced, leg, &stall);
+                    return self.end_at(traced, walker, leg, &stall, away);
                 }
             };
             steps += 1;
             let scaled = walker.here().point.parameters[0];
             let beyond = !(-EDGE..=1.0 + EDGE).contains(&scaled);
             let limit = if scaled > 0.5 { 1.0 } else { 0.0 };
-            let last = if beyond || (scaled - limit).abs() <= EDGE {
+            // The end at which the leg begins is no end before the leg has been away from it.
+            away |= (scaled - edge).abs() > ARRIVED;
+            let arrives = (scaled - limit).abs() <= EDGE && (away || limit != edge);
+            let last = if beyond || arrives {
                 match walker.at_parameter(traced, limit) {
                     Ok(place) => Some(place),
                     Err(stall) => {
                         self.close(traced, walker, leg);
-                        return self.end_at(traced, leg, &stall);
+                        return self.end_at(traced, walker, leg, &stall, away);
                     }
                 }
             } else {
@@ -178,6 +191,8 @@ impl Follower<'_> {
                     self.read(traced, walker)
                 }
             };
+            let value = if last.is_some() { limit } else { scaled };
+            self.remark(traced.axes[0].value(value), &reading.warnings);
             let inside = |special: &Special| (-EDGE..=1.0 + EDGE).contains(&special.point.parameters[0]);
             let mut passed: Vec<(f64, Passed)> = Vec::new();
             for special in specials.into_iter().filter(inside) {
@@ -274,16 +289,24 @@ impl Follower<'_> {
 
     /// Why a leg ends that cannot go on: at the very end of the range there may be no regular point, for a load that goes to nothing can
     /// leave something free.
-    fn end_at(&self, traced: &mut Traced<'_>, leg: &Leg, stall: &Stall) -> BranchEnd {
+    fn end_at(
+        &self,
+        traced: &mut Traced<'_>,
+        walker: &Walker,
+        leg: &Leg,
+        stall: &Stall,
+        away: bool,
+    ) -> BranchEnd {
         let at = leg.points.last().map_or(0.5, |point| traced.axes[0].scaled(point.parameter));
-        let arrived = leg.points.len() > 1 && at.abs().min((at - 1.0).abs()) <= ARRIVED;
-        if arrived {
+        if away && at.abs().min((at - 1.0).abs()) <= ARRIVED {
             return BranchEnd::Range;
         }
-        let ends = traced.problem().contact_ends();
         match stall {
-            Stall::Short if !ends.is_empty() => BranchEnd::Stalled(ends.join(", and ")),
-            _ => stalled(stall),
+            Stall::Short => match why_short(traced, walker.here()) {
+                Some(why) => BranchEnd::Stalled(why),
+                None => stalled(stall),
+            },
+            Stall::Parameter(_) => stalled(stall),
         }
     }
 
@@ -325,6 +348,16 @@ impl Follower<'_> {
             walker.disturbed();
         }
         self.reader.read(traced)
+    }
+
+    /// Keeps warnings of a point on the path, each kind once.
+    fn remark(&self, value: f64, warnings: &[String]) {
+        let mut remarks = self.remarks.borrow_mut();
+        for warning in warnings {
+            if !remarks.iter().any(|(_, known)| kind(known) == kind(warning)) {
+                remarks.push((value, warning.clone()));
+            }
+        }
     }
 
     /// Adds the whole state to a point at which the problem stands.
@@ -471,7 +504,8 @@ impl Follower<'_> {
                 point: special.point.clone(),
                 branches: special.branches.clone(),
                 fold: special.crossing.is_none(),
-                simple: special.kernel.len() == 1,
+                kernel: special.kernel.clone(),
+                tangent: walker.here().tangent.clone(),
             });
         }
         leg.points.push(point);
@@ -537,14 +571,4 @@ impl Follower<'_> {
             Stop::Event(n) => count(&|k| !matches!(k, PointKind::Regular | PointKind::End)) >= *n,
         })
     }
-}
-
-pub(crate) fn stalled(stall: &Stall) -> BranchEnd {
-    BranchEnd::Stalled(match stall {
-        Stall::Short => {
-            "the steps along the path became too short: something jumps there, or many critical points lie close together"
-                .to_string()
-        }
-        Stall::Parameter(why) => why.clone(),
-    })
 }

@@ -5,8 +5,11 @@
 mod branches;
 mod buckle;
 mod critical;
+mod ends;
 mod leg;
 mod line;
+mod path;
+mod pencil;
 mod problem;
 mod record;
 mod ritz;

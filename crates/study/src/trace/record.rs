@@ -21,6 +21,8 @@ pub(crate) struct Reading {
     pub values: Values,
     /// How far every watched quantity is from its value.
     pub left: Vec<Option<f64>>,
+    /// What to know of the state.
+    pub warnings: Vec<String>,
 }
 
 /// Reads outputs and watched quantities.
@@ -58,8 +60,10 @@ impl Reader {
             })
             .collect();
         let mut solution = prepared.problem.sampled(FEW, energies, |beam| beams.contains(&beam));
+        // Those of the mechanism itself come first, and are said of the whole trace.
+        let warnings = solution.warnings.split_off(prepared.problem.warnings().len());
         prepared.add_tangents(&mut solution, &[]);
-        self.read_from(prepared.problem.model(), &solution)
+        Reading { warnings, ..self.read_from(prepared.problem.model(), &solution) }
     }
 
     fn read_from(&self, model: &flexura_model::Model, solution: &Solution) -> Reading {
@@ -74,7 +78,7 @@ impl Reader {
                 }
             })
             .collect();
-        Reading { values: flexura_post::output_values(model, solution), left }
+        Reading { values: flexura_post::output_values(model, solution), left, warnings: Vec::new() }
     }
 
     /// The whole present state.

@@ -54,6 +54,10 @@ pub(crate) fn smallest(operator: &mut dyn FnMut(&mut [f64]), n: usize, count: us
         images.push(image);
     }
     let m = space.len();
+    if m == 0 {
+        // Nothing that the operator does not forget.
+        return Vec::new();
+    }
     let small = DMatrix::from_fn(m, m, |i, j| space[i].dot(&images[j]));
     let eigenvalues = small.complex_eigenvalues();
     let largest = eigenvalues.iter().map(|e| e.re.hypot(e.im)).fold(0.0, f64::max);
@@ -94,6 +98,12 @@ pub(crate) fn smallest(operator: &mut dyn FnMut(&mut [f64]), n: usize, count: us
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_operator_that_is_nothing_has_no_eigenvalues() {
+        assert!(smallest(&mut |x: &mut [f64]| x.fill(0.0), 7, 3).is_empty());
+        assert!(smallest(&mut |_: &mut [f64]| {}, 0, 3).is_empty());
+    }
 
     #[test]
     fn finds_the_largest_eigenvalues_double_ones_twice() {

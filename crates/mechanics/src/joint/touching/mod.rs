@@ -9,15 +9,15 @@ pub use law::TouchingLaw;
 pub(super) use path::Path;
 pub use path::RollingPath;
 
-use super::spherical::Spherical;
+use super::spherical::{Spherical, vector};
 use super::{Configuration, ContactError, ContactState, Kinematics, MAX_FREEDOMS};
 use closest::{closest, retracted};
 use flexura_geometry::dual::vector::{Rows, Triple, difference, dot, moving, scaled, tangents};
-use flexura_spatial::{Pose, Quaternion, Twist, UnitQuaternion, Vector3};
+use flexura_spatial::{Pose, Twist, UnitQuaternion, Vector3, exp, log};
 use std::sync::Arc;
 
-/// A contact that slides: the configuration is the unit quaternion of R, and the host's place in units of a length. H is
-/// the identity on turnings in F's axes with the host's place kept, and moves that place along its tangents t1, t2 with R kept.
+/// A contact that slides: the configuration is the rotation vector of R, as a ball joint keeps it, and the host's place in units of a
+/// length. H is the identity on turnings in F's axes with the host's place kept, and moves that place along its tangents t1, t2 with R kept.
 #[derive(Clone, Debug)]
 pub(super) struct Touching {
     pub law: Arc<TouchingLaw>,
@@ -46,24 +46,22 @@ impl Touching {
     pub fn new(law: Arc<TouchingLaw>, unit: f64, offset: &Pose) -> Result<Self, ContactError> {
         let host = closest(&law, &rows(&offset.rotation), &offset.position.into())?;
         let mut made = Self { law, home: Configuration::default(), unit };
-        made.home = made.stored(&offset.rotation, &host);
+        made.home = made.stored(&log(&offset.rotation), &host);
         Ok(made)
     }
 
-    fn stored(&self, rotation: &UnitQuaternion<f64>, host: &Triple<f64>) -> Configuration {
-        let q = rotation.quaternion();
+    fn stored(&self, turned: &Vector3<f64>, host: &Triple<f64>) -> Configuration {
         let [x, y, z] = host.map(|x| x / self.unit);
-        [q.w, q.i, q.j, q.k, x, y, z]
+        [turned.x, turned.y, turned.z, x, y, z, 0.0]
     }
 
     fn rotation(configuration: &Configuration) -> UnitQuaternion<f64> {
-        let [w, x, y, z, ..] = *configuration;
-        UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
+        exp(&vector(configuration))
     }
 
     /// m.
     fn host(&self, configuration: &Configuration) -> Triple<f64> {
-        [4, 5, 6].map(|i| configuration[i] * self.unit)
+        [3, 4, 5].map(|i: usize| configuration[i] * self.unit)
     }
 
     fn tangents(&self, host: &Triple<f64>) -> [Triple<f64>; 2] {
@@ -129,7 +127,7 @@ impl Kinematics for Touching {
     /// orthographic retraction: Absil and Malick, "Projection-like retractions on matrix manifolds", SIAM J. Optim. 22 (2012)), of
     /// which `step` is the inverse.
     fn moved(&self, configuration: &Configuration, step: &[f64]) -> Configuration {
-        let turned = Self::rotation(&Spherical.moved(configuration, step));
+        let turned = vector(&Spherical.moved(configuration, step));
         let aside = [step[3] * self.unit, step[4] * self.unit];
         let host = retracted(&self.law, &self.host(configuration), &aside);
         self.stored(&turned, &host.unwrap_or([f64::NAN; 3]))
@@ -150,9 +148,9 @@ impl Kinematics for Touching {
         coordinates
     }
     fn configuration(&self, coordinates: &[f64]) -> Configuration {
-        let rotation = Self::rotation(&Spherical.configuration(coordinates));
+        let turned = vector(&Spherical.configuration(coordinates));
         let host = self.law.hosting().point([coordinates[3], coordinates[4]]);
-        self.stored(&rotation, &host.unwrap_or([f64::NAN; 3]))
+        self.stored(&turned, &host.unwrap_or([f64::NAN; 3]))
     }
     /// The rotation as of a spherical joint; efforts on the parameters act along the tangents by ∂(u, v)/∂x·t.
     fn generalised(
@@ -187,8 +185,8 @@ impl Kinematics for Touching {
     fn nearest(&self, pose: &Pose) -> Configuration {
         let origin = pose.position * self.unit;
         match closest(&self.law, &rows(&pose.rotation), &origin.into()) {
-            Ok(host) => self.stored(&pose.rotation, &host),
-            Err(_) => self.stored(&pose.rotation, &[f64::NAN; 3]),
+            Ok(host) => self.stored(&log(&pose.rotation), &host),
+            Err(_) => self.stored(&log(&pose.rotation), &[f64::NAN; 3]),
         }
     }
 }
