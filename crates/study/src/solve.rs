@@ -81,8 +81,6 @@ const FEWEST_SAMPLES: usize = 5;
 /// Why an equilibrium may have no verdict though its mechanism has an energy.
 pub(crate) const CRITICAL: &str = "the equilibrium is critical: a direction gives way without resistance";
 
-/// √(F/EI) L beyond which a load is taken for a mistake.
-const LARGEST_PHASE: f64 = 1e4;
 /// Mesh accuracy of a second look at a path that seemed to end.
 const CAREFUL_MESH: f64 = 1e-9;
 /// How the second look is taken.
@@ -196,13 +194,10 @@ impl Prepared {
         self.problem.rest();
         let mut report =
             |load: f64, steps: usize| progress(Progress { load_fraction: load, load_steps: steps });
-        if self.problem.phase(1.0) > LARGEST_PHASE {
+        if let Some(reason) = self.problem.beyond_reach() {
             return Outcome {
                 status: Status::IterationLimit,
-                reason: Some(
-                    "the load is more than a hundred million times EI/L²; check its unit and the section's dimensions"
-                        .to_string(),
-                ),
+                reason: Some(reason),
                 error_estimate: f64::NAN,
                 path: PathWork::default(),
             };
@@ -251,6 +246,9 @@ impl Prepared {
 
     fn why_stalled(&self, load: f64) -> String {
         let part = 100.0 * load;
+        if let Some(reason) = self.problem.beyond_reach() {
+            return format!("the path from rest ends at {part:.4} % of the load: {reason}");
+        }
         let ends = self.problem.contact_ends();
         if ends.is_empty() {
             format!(
