@@ -210,18 +210,6 @@ impl Equilibrium {
         self.remesh(&counts);
     }
 
-    /// Do loads turn or stretch a beam so far that they must be a mistake? By √(F/EI) L, or (M L/EI), beyond `most`.
-    pub fn is_excessive(&self, most: f64) -> bool {
-        self.lowered.spans.iter().zip(&self.expected).any(|(span, level)| {
-            let law = &self.lowered.beams[span.beam];
-            let length = (span.s[1] - span.s[0]) / law.scale.length;
-            let phase = (level.force * law.soft()).sqrt() * length;
-            let turning = (level.moment + level.tendons) * law.soft() * length;
-            // A number that is none is no sound load either.
-            !(phase <= most && turning <= most)
-        })
-    }
-
     /// Is a stretch of a beam held at both ends?
     pub fn has_closed_spans(&self) -> bool {
         self.lowered.spans.iter().any(|span| span.end.is_some())
@@ -243,8 +231,8 @@ impl Equilibrium {
 
     /// The largest force that a span carries, in EI/L² of its beam.
     pub fn largest_force(&self) -> f64 {
-        let each = self.lowered.spans.iter().zip(&self.levels);
-        each.map(|(span, level)| level.force / self.lowered.beams[span.beam].wrench_unit[0])
+        let each = self.lowered.spans.iter().zip(&self.courses);
+        each.map(|(span, course)| course.most.force / self.lowered.beams[span.beam].wrench_unit[0])
             .fold(0.0, f64::max)
     }
 
@@ -263,7 +251,11 @@ impl Equilibrium {
                 + load.follower.moment.norm()
         };
         let nodes = self.lowered.nodes.iter().flat_map(|node| &node.loads).map(|(_, load, _)| size(load));
-        let spans = self.expected.iter().map(|level| level.force + level.moment + level.tendons);
+        let spans = self
+            .expected
+            .iter()
+            .map(|course| course.most)
+            .map(|most| most.force + most.moment + most.tendons);
         let unit = self.lowered.spans.iter().map(|span| self.lowered.beams[span.beam].wrench_unit[0]);
         (nodes.sum::<f64>() + spans.sum::<f64>()) / unit.fold(f64::INFINITY, f64::min).min(1.0)
     }

@@ -42,8 +42,8 @@ pub enum Ending {
         /// The largest force of a beam there, in EI/L².
         force: f64,
     },
-    /// The load is out of all proportion.
-    Excessive,
+    /// The load is out of all proportion, or a beam would want more integration steps than are made: which, and why.
+    Excessive(String),
     /// More work than a solve may do.
     Work {
         /// Where.
@@ -71,7 +71,7 @@ impl Ending {
     /// The word for it in a result.
     pub fn status(&self) -> Status {
         match self {
-            Ending::Excessive | Ending::Work { .. } => Status::IterationLimit,
+            Ending::Excessive(_) | Ending::Work { .. } => Status::IterationLimit,
             Ending::NoStart(_) => Status::Singular,
             Ending::Interrupted { .. } => Status::Interrupted,
             _ => Status::Stalled,
@@ -125,10 +125,7 @@ impl fmt::Display for Ending {
                  reach cannot be reached: check lengths and places, or let the beams stretch",
                 part(load)
             ),
-            Ending::Excessive => write!(
-                f,
-                "the load is more than a hundred million times EI/L²; check its unit and the section's dimensions"
-            ),
+            Ending::Excessive(reason) => f.write_str(reason),
             Ending::Work { load, steps, crossings: 0 | 1 } => write!(
                 f,
                 "all the work that a solve may do, {steps} load steps, led to {:.4} % of the load only; look for loads or \

@@ -116,8 +116,6 @@ const FEWEST_SAMPLES: usize = 5;
 /// Why an equilibrium may have no verdict though its mechanism has an energy.
 pub(crate) const CRITICAL: &str = "the equilibrium is critical: a direction gives way without resistance";
 
-/// √(F/EI) L beyond which a load is taken for a mistake.
-const LARGEST_PHASE: f64 = 1e4;
 /// Work that a solve may do, in integration steps of one state: for every model, and for each span of it.
 const MOST_EFFORT: f64 = 2.5e6;
 const EFFORT_OF_SPAN: f64 = 2.5e5;
@@ -246,8 +244,8 @@ impl Prepared {
 
     /// A load that is taken for a mistake: nothing is solved, and no mesh is made for it.
     pub(crate) fn overloaded(&self) -> Option<Outcome> {
-        let excessive = self.problem.phase(1.0) > LARGEST_PHASE || self.problem.is_excessive(LARGEST_PHASE);
-        excessive.then(|| Outcome::ended(Ending::Excessive, PathWork::default()))
+        let reason = self.problem.beyond_reach()?;
+        Some(Outcome::ended(Ending::Excessive(reason), PathWork::default()))
     }
 
     /// From rest to the full load, then to `tolerance`.
