@@ -26,6 +26,8 @@ pub struct Settings {
     pub count: u64,
     /// At a time.
     pub jobs: usize,
+    /// Check and solve only.
+    pub quick: bool,
 }
 
 /// Something that was found, with the seed that makes it again and the file that was written.
@@ -129,7 +131,7 @@ fn one_seed(
     let drawn = mechanism(seed);
     let file = bench.path("mechanism.toml");
     std::fs::write(&file, &drawn.text)?;
-    let trial = trial::of_mechanism(bench, &file, drawn.sort);
+    let trial = trial::of_mechanism(bench, &file, drawn.sort, settings.quick);
     let word = match drawn.sort {
         Sort::Held => "held",
         Sort::Hanging => "hanging",
@@ -145,7 +147,7 @@ fn one_seed(
     let file = bench.path("damaged.toml");
     std::fs::write(&file, &bytes)?;
     let parameter = parameter_of(source);
-    let trial = trial::of_damage(bench, &file, random.below(5), parameter.as_deref());
+    let trial = trial::of_damage(bench, &file, random.below(5), parameter.as_deref(), settings.quick);
     *summary.damages.entry(trial.status.clone()).or_default() += 1;
     summary.take(settings, seed, true, &bytes, trial, tell)
 }

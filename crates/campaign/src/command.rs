@@ -10,7 +10,7 @@ pub const MOST_SECONDS: f64 = 10.0;
 /// Memory that it may take.
 pub const MOST_BYTES: u64 = 1 << 30;
 /// However busy the machine is, after so long it is stopped.
-const LONGEST: Duration = Duration::from_secs(120);
+const LONGEST: Duration = Duration::from_secs(600);
 
 /// How a child came to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -97,13 +97,17 @@ pub fn with_trace(document: &Document, trace: &Ran) -> Vec<Finding> {
         {
             find(Kind::PathDiffers, format!("{what} ({} branch points on the way)", branches.len()));
         } else if !through {
-            find(Kind::WrongCause, format!("solve converged; the trace ends at {reached:.4}: {why}"));
+            find(Kind::TraceLost, format!("solve converged; the trace ends at {reached:.4}: {why}"));
         }
         return findings;
     }
     let at = document.load_fraction.unwrap_or(1.0);
     let said = document.reason.clone().unwrap_or_default();
     let status = &document.status;
+    if status == "accuracy_limit" {
+        find(Kind::Accuracy, said);
+        return findings;
+    }
     let near = |places: &[f64]| places.iter().any(|place| (place - at).abs() < NEAR);
     if through && folds.is_empty() {
         find(Kind::WrongCause, format!("{status} at {at:.4}; the trace goes through: {said}"));

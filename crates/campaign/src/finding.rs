@@ -25,6 +25,10 @@ pub enum Kind {
     SweepDiffers,
     /// A stall says a fold where the trace passes or has none.
     WrongCause,
+    /// `solve` converged, and the trace does not start or does not come through.
+    TraceLost,
+    /// The wanted accuracy was not reached.
+    Accuracy,
     /// Held by its beams, joints and springs, and refused.
     Refused,
     /// Held by its loads, and refused or stalled.
@@ -39,7 +43,7 @@ pub enum Kind {
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Kind; 15] = [
+    pub const ALL: [Kind; 17] = [
         Kind::Crash,
         Kind::Wrong,
         Kind::Slow,
@@ -50,6 +54,8 @@ impl Kind {
         Kind::PathDiffers,
         Kind::SweepDiffers,
         Kind::WrongCause,
+        Kind::TraceLost,
+        Kind::Accuracy,
         Kind::Refused,
         Kind::HangingLost,
         Kind::LooseUnnamed,
@@ -70,6 +76,8 @@ impl Kind {
             Kind::PathDiffers => "path_differs",
             Kind::SweepDiffers => "sweep_differs",
             Kind::WrongCause => "wrong_cause",
+            Kind::TraceLost => "trace_lost",
+            Kind::Accuracy => "accuracy",
             Kind::Refused => "refused",
             Kind::HangingLost => "hanging_lost",
             Kind::LooseUnnamed => "loose_unnamed",

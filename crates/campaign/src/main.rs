@@ -7,9 +7,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-const USAGE: &str = "usage: cargo xtask campaign [--seed S] [--count N] [--jobs J] [--draw]\n\
+const USAGE: &str = "usage: cargo xtask campaign [--seed S] [--count N] [--jobs J] [--quick] [--draw]\n\
                      S, the first seed [default: 1]; N, how many [default: 200]; J, at a time [default: as many as cores];\n\
-                     --draw writes the mechanisms into target/campaign and puts them to no verb";
+                     --quick checks and solves only, --draw writes the mechanisms into target/campaign and puts them to no verb";
 
 struct Asked {
     settings: Settings,
@@ -25,12 +25,17 @@ fn asked() -> Result<Asked, String> {
         seed: 1,
         count: 200,
         jobs: cores,
+        quick: false,
     };
     let mut draw = false;
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         if word == "--draw" {
             draw = true;
+            continue;
+        }
+        if word == "--quick" {
+            settings.quick = true;
             continue;
         }
         let value =

@@ -32,9 +32,10 @@ impl Draft {
 
     /// Two bodies on parallel beams: a stage.
     pub(super) fn frame(&mut self) {
+        // The starts come first: a beam from the new body to itself would hold nothing.
+        let starts: Vec<String> = (0..2 + self.random.below(2)).map(|_| self.mount(true)).collect();
         let body = self.new_body();
-        for _ in 0..2 + self.random.below(2) {
-            let start = self.mount(true);
+        for start in starts {
             self.beam(&start, Some(&format!("{{ body = \"{body}\", hold = \"clamp\" }}")));
         }
     }

@@ -114,9 +114,12 @@ impl<'a> Answer<'a> {
             self.force = self.force.max(body.mass * self.model.gravity.norm());
         }
         self.moment = self.moment.max(self.force * self.length);
-        self.force = self.force.max(f64::MIN_POSITIVE);
-        self.moment = self.moment.max(f64::MIN_POSITIVE);
-        self.length = self.length.max(f64::MIN_POSITIVE);
+        // Where nothing has a size, one in SI is as good as any.
+        for size in [&mut self.length, &mut self.force, &mut self.moment] {
+            if *size == 0.0 {
+                *size = 1.0;
+            }
+        }
     }
 
     /// Where what carries something is now.

@@ -33,15 +33,28 @@ fn angle_about(axis: &V, pose: &Pose) -> f64 {
     2.0 * half - TAU * (2.0 * half / TAU).round()
 }
 
+fn driven_to(law: &CoordinateLaw) -> Option<f64> {
+    match law.drive {
+        Drive::Driven { coordinate } => Some(coordinate),
+        Drive::Free { .. } => None,
+    }
+}
+
 /// The angle a turn or more on that is nearest to the one that is told.
 fn counted(angle: f64, told: Option<f64>) -> f64 {
     told.map_or(angle, |told| angle + TAU * ((told - angle) / TAU).round())
 }
 
 impl Held<'_> {
-    fn told(&self, i: usize) -> Option<f64> {
-        self.coordinates.and_then(|q| q.get(i).copied()).or(match self.law.coordinates.get(i)?.drive {
+    /// About where an angle is: as it is told or driven; else, since a turn on looks alike, where its spring would carry the
+    /// effort that there is.
+    fn told(&self, i: usize, effort: f64) -> Option<f64> {
+        let law = self.law.coordinates.get(i)?;
+        self.coordinates.and_then(|q| q.get(i).copied()).or(match law.drive {
             Drive::Driven { coordinate } => Some(coordinate),
+            Drive::Free { effort: given } if law.stiffness > 0.0 => {
+                Some(law.rest + (given - effort) / law.stiffness)
+            }
             Drive::Free { .. } => None,
         })
     }
@@ -51,7 +64,7 @@ impl Held<'_> {
         let (axis, second) = (self.law.axis, self.law.second_axis);
         let (p, f, m) = (self.pose.position, self.wrench.force, self.wrench.moment);
         let turn = |axis: &V, pose: &Pose, i: usize, effort: f64| Along {
-            value: counted(angle_about(axis, pose), self.told(i)),
+            value: counted(angle_about(axis, pose), self.told(i, effort)),
             effort,
             is_angle: true,
         };
@@ -77,7 +90,7 @@ impl Held<'_> {
             JointKind::Universal => {
                 let carried = self.pose.rotation * second;
                 let first = axis.cross(&second).dot(&carried).atan2(second.dot(&carried));
-                let first = counted(first, self.told(0));
+                let first = counted(first, self.told(0, axis.dot(&m)));
                 let rest = Pose::new(exp(&(axis * -first)) * self.pose.rotation, V::zeros());
                 let q = Along { value: first, effort: axis.dot(&m), is_angle: true };
                 let r = turn(&second, &rest, 1, (exp(&(axis * first)) * second).dot(&m));
@@ -94,7 +107,12 @@ impl Held<'_> {
             JointKind::Spherical | JointKind::Free => {
                 let free = self.law.kind == JointKind::Free;
                 let first = if free { 3 } else { 0 };
-                let told: Option<Vec<f64>> = (first..first + 3).map(|i| self.told(i)).collect();
+                let told = self.coordinates.and_then(|q| q.get(first..first + 3)).map(<[f64]>::to_vec);
+                let driven = || -> Option<Vec<f64>> {
+                    let laws = self.law.coordinates.get(first..first + 3)?;
+                    laws.iter().map(|law| driven_to(law)).collect()
+                };
+                let told = told.or_else(driven);
                 let v = told.map_or_else(|| log(&self.pose.rotation), |q| V::new(q[0], q[1], q[2]));
                 // δX turns by J(v) δv in F's axes, J the left Jacobian.
                 let effort = left_jacobian(&v).transpose() * m;
@@ -119,7 +137,8 @@ impl Held<'_> {
         checks.push(Check { what: format!("closure of {}", self.name), difference: turned.max(moved) });
         for (i, (q, law)) in along.iter().zip(&self.law.coordinates).enumerate() {
             // A rotation vector that no one tells may be any of several.
-            if q.is_angle && self.coordinates.is_none() && q.value.abs() > 3.0 {
+            let is_ball = matches!(self.law.kind, JointKind::Spherical | JointKind::Free);
+            if is_ball && q.is_angle && self.coordinates.is_none() && self.turned() > 3.0 {
                 continue;
             }
             let geared = self.geared.get(i).copied().unwrap_or(0.0);
@@ -177,8 +196,15 @@ pub fn energy(law: &JointLaw, values: &[f64]) -> f64 {
 }
 
 impl Held<'_> {
-    /// Its coordinates.
+    fn turned(&self) -> f64 {
+        log(&self.pose.rotation).norm()
+    }
+
+    /// Its coordinates, where they can be told.
     pub fn values(&self) -> Option<Vec<f64>> {
+        if matches!(self.law.kind, JointKind::Spherical | JointKind::Free) && self.turned() > 3.0 {
+            return None;
+        }
         Some(self.resolve()?.0.iter().map(|along| along.value).collect())
     }
 }

@@ -50,7 +50,7 @@ pub fn verify(model: &Model, document: &Document) -> Result<Verdict, String> {
     let answer = Answer::new(model, document)?;
     let mut actions = answer.actions();
     let mut checks = Vec::new();
-    let carried = beams(&answer, &mut actions, &mut checks)?;
+    let (carried, stored) = beams(&answer, &mut actions, &mut checks)?;
     balances(&answer, &actions, &carried, &mut checks);
     joints_and_drives(&answer, &mut checks);
     springs::checks(&answer, &mut checks);
@@ -60,7 +60,7 @@ pub fn verify(model: &Model, document: &Document) -> Result<Verdict, String> {
         nests::checks(&answer, nest, told, &mut checks)?;
     }
     couplings(&answer, &mut checks);
-    energy(&answer, &carried, &mut checks);
+    energy(&answer, &carried, stored, &mut checks);
     Ok(Verdict { checks })
 }
 
@@ -84,7 +84,7 @@ fn beams(
     answer: &Answer,
     actions: &mut Vec<Action>,
     checks: &mut Vec<Check>,
-) -> Result<Vec<Vec<Carried>>, String> {
+) -> Result<(Vec<Vec<Carried>>, Option<f64>), String> {
     let count = answer.model.beams.len();
     // What a beam exerts on its supports is read off its first and last station, so that these come first for all.
     let mut supports = Vec::new();
@@ -123,10 +123,11 @@ fn beams(
     if supports.len() < count {
         return Err("beams hold on to each other in a circle".to_owned());
     }
-    for (beam, start, end) in &supports {
-        holds(answer, *beam, start, end, checks);
-    }
-    (0..count).map(|beam| intervals(answer, beam, actions, checks)).collect()
+    let held: Vec<Option<f64>> =
+        supports.iter().map(|(beam, start, end)| holds(answer, *beam, start, end, checks)).collect();
+    let carried =
+        (0..count).map(|beam| intervals(answer, beam, actions, checks)).collect::<Result<_, _>>()?;
+    Ok((carried, held.into_iter().sum()))
 }
 
 /// What the support at the start gets from the beam, and what the support at the end exerts on it.
@@ -141,14 +142,15 @@ fn end_wrenches(answer: &Answer, beam: usize, actions: &[Action]) -> Option<[Wre
     Some([start, end])
 }
 
-/// The ends against what holds them.
-fn holds(answer: &Answer, beam: usize, start: &Wrench, end: &Wrench, checks: &mut Vec<Check>) {
+/// The ends against what holds them; what the springs of the holds store, where their coordinates can be told.
+fn holds(answer: &Answer, beam: usize, start: &Wrench, end: &Wrench, checks: &mut Vec<Check>) -> Option<f64> {
     let (rod, stations) = (&answer.rods[beam], &answer.beams[beam]);
     let described = rod.beam;
     let ends = [
         (&described.start, stations[0].pose, -*start, "start"),
         (&described.end, stations[stations.len() - 1].pose, *end, "end"),
     ];
+    let mut stored = Some(0.0);
     for (hold, moving, wrench, word) in ends {
         let name = format!("beam.{}.{word}", described.name);
         let Some(hold) = hold else {
@@ -163,7 +165,10 @@ fn holds(answer: &Answer, beam: usize, start: &Wrench, end: &Wrench, checks: &mu
                 Some(answer.at_rest(&hold.mount, 0)?.inverse() * rest)
             }
         });
-        let Some(placement) = placement else { continue };
+        let Some(placement) = placement else {
+            stored = None;
+            continue;
+        };
         let fixed = answer.carried(&hold.mount) * placement;
         let held = Held {
             name,
@@ -174,7 +179,10 @@ fn holds(answer: &Answer, beam: usize, start: &Wrench, end: &Wrench, checks: &mu
             geared: Vec::new(),
         };
         held.check(answer, checks);
+        let here = held.values().map(|values| joints::energy(&hold.hold, &values));
+        stored = stored.zip(here).map(|(sum, here)| sum + here);
     }
+    stored
 }
 
 /// One beam from station to station.
@@ -332,42 +340,17 @@ fn couplings(answer: &Answer, checks: &mut Vec<Check>) {
 }
 
 /// The strain energy, where all that stores any is known here.
-fn energy(answer: &Answer, carried: &[Vec<Carried>], checks: &mut Vec<Check>) {
+fn energy(answer: &Answer, carried: &[Vec<Carried>], held: Option<f64>, checks: &mut Vec<Check>) {
     let model = answer.model;
     let is_known = model.tubes.is_empty();
     let springs: Option<Vec<f64>> =
         model.springs.iter().map(|spring| springs::energy(answer, spring)).collect();
-    let Some(springs) = springs.filter(|_| is_known) else { return };
-    let mut sum: f64 = springs.iter().sum();
+    let (Some(springs), Some(held)) = (springs.filter(|_| is_known), held) else { return };
+    let mut sum = held + springs.iter().sum::<f64>();
     sum += carried.iter().flatten().map(|interval| interval.energy).sum::<f64>();
     for (joint, told) in model.joints.iter().zip(answer.joint_documents()) {
         let Some(told) = told else { continue };
         sum += joints::energy(&joint.law, &told.coordinates);
-    }
-    for (rod, stations) in answer.rods.iter().zip(&answer.beams) {
-        let ends = [(&rod.beam.start, &stations[0]), (&rod.beam.end, &stations[stations.len() - 1])];
-        for (place, (hold, station)) in ends.into_iter().enumerate() {
-            let Some(hold) = hold else { continue };
-            let placement = hold.placement.or_else(|| match place {
-                0 => Some(Pose::identity()),
-                _ => {
-                    let rest = rod.home(answer, 0)? * rod.shape.pose(rod.length);
-                    Some(answer.at_rest(&hold.mount, 0)?.inverse() * rest)
-                }
-            });
-            let Some(placement) = placement else { return };
-            let pose = (answer.carried(&hold.mount) * placement).inverse() * station.pose;
-            let held = Held {
-                name: String::new(),
-                law: &hold.hold,
-                pose,
-                wrench: Wrench::zero(),
-                coordinates: None,
-                geared: Vec::new(),
-            };
-            let Some(values) = held.values() else { return };
-            sum += joints::energy(&hold.hold, &values);
-        }
     }
     let told = answer.document.energy;
     let unit = told.abs().max(answer.force * answer.length * 1e-6);
