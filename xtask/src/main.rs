@@ -4,12 +4,14 @@
 //! cargo xtask test       everything that must hold: the checks, the tests, the documentation
 //! cargo xtask generate   rewrite the files that are generated
 //! cargo xtask tidy       the checks that compile nothing
+//! cargo xtask campaign   random mechanisms and damaged files for every verb, their answers verified by other means
 //! ```
 //!
 //! Each step prints one line before it starts; the first failure ends the run with the command to repeat it.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "chores talk to a terminal")]
 
+mod campaign;
 mod generate;
 mod layers;
 mod map;
@@ -20,7 +22,8 @@ mod tidy;
 
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: cargo xtask <test | generate | tidy>";
+const USAGE: &str =
+    "usage: cargo xtask <test | generate | tidy | campaign [--seed S] [--count N] [--jobs J]>";
 
 fn main() -> ExitCode {
     let verb = std::env::args().nth(1).unwrap_or_default();
@@ -28,6 +31,7 @@ fn main() -> ExitCode {
         "test" => test::run(),
         "generate" => generate::write(),
         "tidy" => tidy::run(),
+        "campaign" => campaign::run(std::env::args().skip(2)),
         _ => Err(USAGE.to_string()),
     };
     match result {
