@@ -10,16 +10,19 @@
 //! Absent on purpose: electric units, affine temperatures (degrees Celsius), and the unit names `h`, `L`,
 //! `t`, `A`, `F`, `GJ`, which users want as names of their own parameters.
 
+mod bounds;
 mod dimension;
 mod error;
 mod expression;
 mod function;
+mod interval;
 mod jet;
 mod lexer;
 mod lower;
 mod nearest;
 mod parser;
 mod program;
+mod smoothness;
 mod split;
 mod unit;
 
@@ -29,6 +32,7 @@ pub use expression::{Expression, Reference, Segment};
 pub use function::{Formula, Function};
 pub use lower::{Binding, Lowered};
 pub use nearest::nearest;
+pub use smoothness::Variation;
 pub use split::split;
 pub use unit::{Unit, UnitEntry, unit, unit_table};
 

@@ -6,7 +6,11 @@ use crate::legendre::{Integral, NODES, RULE};
 use crate::path::Path;
 
 /// Cells are halved at most this often; only kinks in a user's expression get there.
-const DEPTH: usize = 14;
+const DEPTH: usize = 40;
+/// Most cells of one path; beyond, they are taken as they are.
+const MOST_CELLS: usize = 20_000;
+/// What may be overlooked in a cell moves no point by more than this part of the length.
+const OVERLOOKED: f64 = 1e-15;
 
 /// A stretch of parameter values in which s(t) is a polynomial to round-off and the tangent turns by less
 /// than 60 degrees.
@@ -18,6 +22,8 @@ pub(crate) struct Cell {
     pub start: f64,
     /// |dx/dt| times half the cell's width.
     speed: Integral,
+    /// By how much the tangent turns along it, back and forth, rad.
+    pub turning: f64,
 }
 
 impl Cell {
@@ -104,6 +110,7 @@ fn split(
         }
     }
     let mut turns = !(last.tangent.dot(&first.tangent) > 0.5);
+    let (mut turning, mut before) = (0.0, first.tangent);
     for (i, x) in RULE.nodes.iter().enumerate() {
         let t = a + half * (1.0 + x);
         let local = path.local(t);
@@ -113,10 +120,14 @@ fn split(
         speed[i] = local.speed * half;
         roll[i] = reference_rate(&local, &direction) * speed[i];
         turns |= !(local.tangent.dot(&first.tangent) > 0.5);
+        turning += (local.tangent - before).norm();
+        before = local.tangent;
     }
+    turning += (last.tangent - before).norm();
     let speed = Integral::new(&speed);
     let converged = speed.tail() <= 4e-16 * scale && Integral::new(&roll).tail() <= 2e-15;
-    if (turns || !converged) && depth < DEPTH {
+    let sound = converged && !turns && path.is_resolved(range, OVERLOOKED * scale);
+    if !sound && depth < DEPTH && cells.len() < MOST_CELLS {
         let middle = a + half;
         split(path, [a, middle], scale, depth + 1, cells)?;
         return split(path, [middle, b], scale, depth + 1, cells);
@@ -125,7 +136,7 @@ fn split(
     if !(speed.tail() < 1e-3 * scale) {
         return Err(ShapeError::Undefined { parameter: a + half });
     }
-    cells.push(Cell { range, start: 0.0, speed });
+    cells.push(Cell { range, start: 0.0, speed, turning });
     Ok(())
 }
 

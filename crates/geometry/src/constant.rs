@@ -70,6 +70,22 @@ impl Constant {
         }
     }
 
+    /// Arc lengths at which a twist is not smooth.
+    pub fn breaks(&self, length: f64) -> Vec<f64> {
+        match &self.rule {
+            Rule::Minimising { twist, .. } => twist.breaks(length),
+            Rule::Fixed { .. } | Rule::Along { .. } => Vec::new(),
+        }
+    }
+
+    /// By how much (rad) the section may turn back and forth between two arc lengths without that a few places show it.
+    pub fn hidden_turn(&self, a: f64, b: f64) -> f64 {
+        match &self.rule {
+            Rule::Minimising { twist, .. } => twist.hidden_turn(a, b),
+            Rule::Fixed { .. } | Rule::Along { .. } => 0.0,
+        }
+    }
+
     /// (k1, k2, k3) at arc length `s`.
     pub fn curvature(&self, s: f64) -> Vector3<f64> {
         match &self.rule {

@@ -72,6 +72,16 @@ impl Twist {
         }
     }
 
+    /// Arc lengths at which its rate is not smooth.
+    pub fn breaks(&self, length: f64) -> Vec<f64> {
+        self.function.as_ref().map_or(Vec::new(), |function| function.breaks(0.0, length))
+    }
+
+    /// By how much (rad) it may turn back and forth between two arc lengths without that a few places show it.
+    pub fn hidden_turn(&self, a: f64, b: f64) -> f64 {
+        self.function.as_ref().map_or(0.0, |function| function.variation(a, b).hidden_slope() * (b - a))
+    }
+
     /// Does it never turn?
     pub fn is_none(&self) -> bool {
         self.function.as_ref().is_none_or(|function| function.as_constant().is_some())
@@ -79,6 +89,22 @@ impl Twist {
 }
 
 impl Rule {
+    /// Arc lengths at which a twist is not smooth.
+    pub fn breaks(&self, length: f64) -> Vec<f64> {
+        match self {
+            Rule::Minimising { twist, .. } => twist.breaks(length),
+            Rule::Frenet { .. } | Rule::Along { .. } => Vec::new(),
+        }
+    }
+
+    /// As [`Twist::hidden_turn`].
+    pub fn hidden_turn(&self, a: f64, b: f64) -> f64 {
+        match self {
+            Rule::Minimising { twist, .. } => twist.hidden_turn(a, b),
+            Rule::Frenet { .. } | Rule::Along { .. } => 0.0,
+        }
+    }
+
     /// The rule for a traced path that has been cut into `cells`.
     pub fn new(frame: &SectionFrame, path: &Path, cells: &[Cell], length: f64) -> Result<Self, ShapeError> {
         match frame {

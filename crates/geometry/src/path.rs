@@ -8,7 +8,11 @@ use flexura_spatial::Vector3;
 #[derive(Clone, Debug)]
 pub(crate) enum Path {
     /// Given by expressions.
-    Parametric { position: [Function; 3], range: [f64; 2] },
+    Parametric {
+        position: [Function; 3],
+        /// First and last parameter value, and those between at which a coordinate is not smooth.
+        knots: Vec<f64>,
+    },
     /// Through points.
     Spline(Spline),
     /// Circular arcs in the plane, by arc length.
@@ -17,11 +21,35 @@ pub(crate) enum Path {
     Ellipse { semi_axes: [f64; 2], range: [f64; 2] },
 }
 
+/// A coordinate of a cell may leave its polynomial of degree 7 by this part of the cell's size: what is narrower than the
+/// distance of the nodes would leave it by more.
+const RESOLVED: f64 = 1e-2;
+
 impl Path {
+    /// A curve given by expressions.
+    pub fn parametric(position: &[Function; 3], [from, to]: [f64; 2]) -> Self {
+        let mut knots = vec![from, to];
+        knots.extend(position.iter().flat_map(|function| function.breaks(from, to)));
+        knots.sort_by(f64::total_cmp);
+        knots.dedup_by(|later, earlier| *later - *earlier < 1e-12 * (to - from));
+        Path::Parametric { position: position.clone(), knots }
+    }
+
+    /// Is it certain that nothing happens between two parameter values that a few places there do not show, but for what moves
+    /// no point by more than `tiny` (m)?
+    pub fn is_resolved(&self, [a, b]: [f64; 2], tiny: f64) -> bool {
+        let Path::Parametric { position, .. } = self else { return true };
+        let variations = position.each_ref().map(|f| f.variation(a, b));
+        let chord = (self.jet(b)[0] - self.jet(a)[0]).norm();
+        variations.iter().map(|v| v.remainder).sum::<f64>() <= RESOLVED * chord
+            || variations.iter().map(|v| v.hidden_slope() * (b - a)).sum::<f64>() <= tiny
+    }
+
     /// The parameter values between which the path is smooth, the ends included.
     pub fn knots(&self) -> Vec<f64> {
         match self {
-            Path::Parametric { range, .. } | Path::Ellipse { range, .. } => range.to_vec(),
+            Path::Parametric { knots, .. } => knots.clone(),
+            Path::Ellipse { range, .. } => range.to_vec(),
             Path::Spline(spline) => spline.knots().to_vec(),
             Path::Arcs(arcs) => arcs.knots.clone(),
         }

@@ -43,6 +43,12 @@ impl Profiles {
         Ok(shape)
     }
 
+    /// By how much (rad) the shape may turn between two arc lengths without that a few places show it.
+    pub fn hidden_turn(&self, a: f64, b: f64) -> f64 {
+        let hidden = self.curvature.iter().filter_map(|k| k.variation(a, b)).map(|v| v.hidden());
+        hidden.sum::<f64>() * (b - a)
+    }
+
     /// (k1, k2, k3) at `s`.
     pub fn curvature(&self, s: f64) -> Vector3<f64> {
         Vector3::from_fn(|i, _| self.curvature[i].value(s, self.length))
@@ -70,8 +76,9 @@ impl Profiles {
         let whole = self.step(from, h);
         let halves = self.step(from, 0.5 * h) * self.step(from + 0.5 * h, 0.5 * h);
         let gap = (whole.inverse() * halves).log();
-        let converged =
-            gap.angular.norm() <= TOLERANCE && gap.linear.norm() <= TOLERANCE * self.length.max(h);
+        let converged = gap.angular.norm() <= TOLERANCE
+            && gap.linear.norm() <= TOLERANCE * self.length.max(h)
+            && self.hidden_turn(from, to) <= TOLERANCE;
         if converged || depth == DEPTH {
             *pose = *pose * halves;
             poses.push((to, *pose));

@@ -31,6 +31,9 @@ enum Kind {
     Traced { path: Path, cells: Vec<Cell>, rule: Rule },
 }
 
+/// A cell that is shorter than this part of a stretch may not show in it.
+const SMALL: f64 = 0.25;
+
 impl RestShape {
     /// The rest shape of a curve whose section axes run as `frame` says.
     ///
@@ -63,7 +66,7 @@ impl RestShape {
                 if !(from < to && (to - from).is_finite()) {
                     return Err(ShapeError::Range { from, to });
                 }
-                Self::traced(Path::Parametric { position: position.clone(), range: *range }, frame)
+                Self::traced(Path::parametric(position, *range), frame)
             }
             Curve::Points { points } => Self::traced(Path::Spline(Spline::new(points)?), frame),
             Curve::Curvature { curvature, length } => {
@@ -82,7 +85,8 @@ impl RestShape {
         let length = positive("length", length)?;
         let curve = Constant::new(bend, torsion, length, frame)?;
         let home = curve.pose(0.0).inverse();
-        Ok(Self { length, breaks: Vec::new(), uniform: curve.uniform(), kind: Kind::Constant(curve), home })
+        let breaks = curve.breaks(length);
+        Ok(Self { length, breaks, uniform: curve.uniform(), kind: Kind::Constant(curve), home })
     }
 
     fn traced(path: Path, frame: &SectionFrame) -> Result<Self, ShapeError> {
@@ -95,12 +99,15 @@ impl RestShape {
         let knots = path.knots();
         let inner = knots.get(1..knots.len() - 1).unwrap_or_default();
         // A cell starts at every knot.
-        let breaks = inner
+        let mut breaks: Vec<f64> = inner
             .iter()
-            .filter_map(|knot| cells.iter().find(|cell| cell.range[0] == *knot))
-            .map(|cell| cell.start)
-            .filter(|s| *s > 0.0 && *s < length)
+            .filter_map(|knot| cells.binary_search_by(|cell| cell.range[0].total_cmp(knot)).ok())
+            .map(|i| cells[i].start)
             .collect();
+        breaks.extend(rule.breaks(length));
+        breaks.retain(|s| *s > 0.0 && *s < length);
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup();
         let straight = samples.iter().all(|sample| sample.local.bend.norm() * length < 1e-15);
         let uniform = (straight && rule.is_untwisted()).then(Vector3::zeros);
         let mut shape = Self {
@@ -146,6 +153,24 @@ impl RestShape {
                 let (e2, k1) = rule.axis(i, x, s, &local);
                 let e3 = local.tangent.cross(&e2);
                 Vector3::new(k1, -local.bend.dot(&e3), local.bend.dot(&e2))
+            }
+        }
+    }
+
+    /// By how much (rad) the shape may turn back and forth between two arc lengths, none of its breaks between them, without
+    /// that a few places there show it: zero where that is ruled out.
+    pub fn hidden_turn(&self, a: f64, b: f64) -> f64 {
+        if self.uniform.is_some() {
+            return 0.0;
+        }
+        match &self.kind {
+            Kind::Constant(curve) => curve.hidden_turn(a, b),
+            Kind::Profiles(profiles) => profiles.hidden_turn(a, b),
+            Kind::Traced { cells, rule, .. } => {
+                let first = cells.partition_point(|cell| cell.start <= a).saturating_sub(1);
+                let here = cells[first..].iter().take_while(|cell| cell.start < b);
+                let small = here.filter(|cell| cell.length() < SMALL * (b - a));
+                small.map(|cell| cell.turning).sum::<f64>() + rule.hidden_turn(a, b)
             }
         }
     }

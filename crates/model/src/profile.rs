@@ -1,7 +1,7 @@
 //! Quantities that may vary along a beam.
 
 use crate::Notch;
-use flexura_expression::Function;
+use flexura_expression::{Function, Variation};
 
 /// A place along a beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ pub enum Profile {
         /// The value at each row, SI.
         value: Vec<f64>,
     },
-    /// A smooth function of the undeformed arc length s (m).
+    /// A function of the undeformed arc length s (m).
     Function(Function),
     /// The height of a notched flexure hinge.
     Notch(Notch),
@@ -89,12 +89,21 @@ impl Profile {
         }
     }
 
+    /// What a function can be between two arc lengths between its breaks; None for what is no function, whose breaks say all.
+    pub fn variation(&self, a: f64, b: f64) -> Option<Variation> {
+        match self {
+            Profile::Function(function) if function.as_constant().is_none() => Some(function.variation(a, b)),
+            _ => None,
+        }
+    }
+
     /// Arc lengths strictly inside the beam, in increasing order, between which the profile is smooth.
     pub fn breaks(&self, length: f64) -> Vec<f64> {
         let mut breaks: Vec<f64> = match self {
             Profile::Table { at, .. } => at.iter().map(|row| row.arc_length(length)).collect(),
             Profile::Notch(notch) => notch.breaks(length),
-            Profile::Constant(_) | Profile::Function(_) => Vec::new(),
+            Profile::Function(function) => function.breaks(0.0, length),
+            Profile::Constant(_) => Vec::new(),
         };
         // What comes out at an end but for round-off is no break.
         let margin = 1e-12 * length;

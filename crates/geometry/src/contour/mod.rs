@@ -111,7 +111,7 @@ impl Contour {
             BoundaryCurve::Expression { position: [x, y], range, closed } => {
                 let range = checked_range(*range)?;
                 let position = [x.clone(), y.clone(), Function::constant(0.0)];
-                (Path::Parametric { position, range }, *closed, boundary.outside)
+                (Path::parametric(&position, range), *closed, boundary.outside)
             }
         };
         let (cells, length) = cells::cut(&path)?;
