@@ -6,7 +6,8 @@
 //! [`GAIN`], far less than that limit, so that it also holds where the limit is not yet reached, plus what
 //! round-off may have done.
 
-use crate::shooting::pose_of;
+use crate::mesh::Stretch;
+use crate::shooting::{Acting, carry_through, jump, pose_of};
 use crate::system::Equilibrium;
 use flexura_mechanics::ode::{STAGES, WEIGHTS};
 use flexura_mechanics::rod::Piece;
@@ -73,6 +74,7 @@ impl Equilibrium {
         // The first mesh may err by what halving its steps will mend, and Newton by as much: the correction on
         // the halved mesh takes both away.
         self.restep(tolerance * GAIN, false);
+        let law_error = self.meshes.iter().map(|mesh| mesh.law_error).fold(0.0, f64::max);
         self.set_weights(true);
         let mut step = vec![0.0; self.unknowns()];
         let mut best = f64::INFINITY;
@@ -104,7 +106,7 @@ impl Equilibrium {
                 moved = moved.max(size);
                 left = rate * size;
             }
-            let error = moved / GAIN + left + floor;
+            let error = moved / GAIN + left + floor + law_error;
             if error <= tolerance {
                 return Finish::Done { error };
             }
@@ -112,9 +114,58 @@ impl Equilibrium {
                 return Finish::AccuracyLimit { error: error.max(moved) };
             }
             best = moved;
-            self.multiply_steps((0.65 * (error / tolerance).powf(0.125)).clamp(1.0, 8.0));
+            self.refine(error / tolerance);
         }
         Finish::AccuracyLimit { error: best }
+    }
+
+    /// More steps, and where they are needed, for an error that is `excess` times what it may be.
+    fn refine(&mut self, excess: f64) {
+        let enough = |excess: f64| 0.65 * excess.powf(0.125);
+        if self.meshes.iter().map(|mesh| mesh.stretches().count()).sum::<usize>() == 1 {
+            self.multiply_steps(enough(excess).clamp(1.0, 8.0));
+            return;
+        }
+        let defects = self.stretch_defects();
+        let count = defects.iter().flatten().count() as f64;
+        let mean = defects.iter().flatten().sum::<f64>() / count;
+        for ((span, mesh), defects) in self.lowered.spans.iter().zip(&mut self.meshes).zip(&defects) {
+            // Each stretch may err by an equal part. Where it errs less the steps stay as they were before they were halved.
+            mesh.multiply(&self.lowered.beams[span.beam], span, |i, present| {
+                let share = if mean > 0.0 { defects[i] / mean } else { 1.0 };
+                let least = if share >= 1.0 { 1.0 } else { 0.5 };
+                (present as f64 * enough(excess * share).clamp(least, 8.0)).ceil() as usize
+            });
+        }
+        self.multiply_tube_steps(enough(excess).clamp(1.0, 8.0));
+        self.sum_known_forces();
+    }
+
+    /// For every stretch of every span, by how much its end moves and turns if it has half as many steps.
+    fn stretch_defects(&self) -> Vec<Vec<f64>> {
+        let mut all = Vec::with_capacity(self.meshes.len());
+        for (index, (span, mesh)) in self.lowered.spans.iter().zip(&self.meshes).enumerate() {
+            let law = &self.lowered.beams[span.beam];
+            let shorter = law.scale.length / law.length;
+            let pulls = self.pulls(index);
+            let acting = Acting { jumps: &span.jumps, load: self.load, pulls: &pulls };
+            let mut defects = Vec::new();
+            for (k, segment) in mesh.segments.iter().enumerate() {
+                let mut state = self.segment_start(index, k);
+                for stretch in segment {
+                    let mut coarse = state;
+                    let half = stretch.piece.steps.div_ceil(2);
+                    carry_through(&Stretch::new(law, span, stretch.s, half, Vec::new()), &acting, &mut coarse);
+                    carry_through(stretch, &acting, &mut state);
+                    let (fine, coarse) = (pose_of(&state), pose_of(&coarse));
+                    let turned = log(&(fine.rotation * coarse.rotation.inverse())).norm();
+                    defects.push(turned + (fine.position - coarse.position).norm() * shorter);
+                    stretch.jumps.iter().for_each(|&j| jump(&span.jumps[j], self.load, &mut state));
+                }
+            }
+            all.push(defects);
+        }
+        all
     }
 
     /// One simplified Newton correction on the present mesh; its size.

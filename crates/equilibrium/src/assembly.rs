@@ -17,9 +17,10 @@
 //! before the inverse left Jacobian of the logarithm, which leaves the Newton step exactly the same because
 //! that Jacobian leaves the residual itself unchanged.
 
+use crate::course::{Course, Mark};
 use crate::held::{Held, HoldRef};
 use crate::shooting::{
-    Acting, MAX_COLUMNS, Plain, SegmentEnd, carry_columns, carry_plain, jump, plain, pose_of, wrench_of,
+    Acting, MAX_COLUMNS, Plain, SegmentEnd, carry_columns, carry_marked, jump, plain, pose_of, wrench_of,
 };
 use crate::system::Equilibrium;
 use flexura_nonlinear::{Block, Breakdown, Matrix};
@@ -42,6 +43,22 @@ pub(crate) fn rows(column: &[f64; 12], first: usize) -> V {
 
 /// Lists how a wrench changes along each unknown that it depends on.
 pub(crate) type WrenchColumns<'a> = dyn Fn(&mut dyn FnMut(usize, Wrench)) + 'a;
+
+/// Adds force and moment at the start of a segment and at the ends of its stretches.
+fn mark(
+    marks: &mut Vec<Mark>,
+    s: f64,
+    start: &Plain,
+    (segment, end): (&[crate::mesh::Stretch], &SegmentEnd),
+) {
+    let of = |state: &Plain| [state.force, state.moment].map(|v| V::from(v).norm());
+    let mut add = |s: f64, [force, moment]: [f64; 2]| marks.push(Mark { s, force, moment });
+    add(s, of(start));
+    if segment.len() == 1 {
+        add(segment[0].s[1], of(&end.state));
+    }
+    segment.iter().zip(&end.met).for_each(|(stretch, met)| add(stretch.s[1], *met));
+}
 
 impl Equilibrium {
     fn start_hold(&self, span: usize) -> Held {
@@ -89,6 +106,9 @@ impl Equilibrium {
 
     /// Evaluates the residual, and the tangent too if asked.
     pub(crate) fn evaluate(&mut self, tangent: bool) -> Result<(), Breakdown> {
+        if self.is_overfull() {
+            return Err(Breakdown::NotFinite);
+        }
         let mut matrix = std::mem::take(&mut self.tangent);
         let mut r = std::mem::take(&mut self.r);
         r.fill(0.0);
@@ -136,7 +156,11 @@ impl Equilibrium {
             let mesh = &self.meshes[span];
             let jumps = &self.lowered.spans[span].jumps;
             let acting = Acting { jumps, load, pulls: &pulls };
-            let mut level = crate::mesh::Level::default();
+            let mut level = crate::course::Level::default();
+            let law = &self.lowered.beams[self.lowered.spans[span].beam];
+            let even = self.lowered.spans[span].is_even(law);
+            let mut marks = std::mem::take(&mut self.courses[span].marks);
+            marks.clear();
             for (k, (segment, end)) in mesh.segments.iter().zip(&mut ends).enumerate() {
                 let first: &[usize] = if k == 0 { &mesh.first_jumps } else { &[] };
                 let start =
@@ -153,14 +177,16 @@ impl Equilibrium {
                     for &j in first {
                         jump(&jumps[j], load, &mut end.state);
                     }
-                    let lengths = carry_plain(segment, &acting, &mut end.state);
+                    let lengths = carry_marked(segment, &acting, &mut end.state, &mut end.met);
                     end.lengths.resize(lengths.len(), [0.0; 1 + MAX_COLUMNS]);
                     end.lengths.iter_mut().zip(&lengths).for_each(|(to, from)| to[0] = from[0]);
                 }
                 let size = |v: &[f64; 3]| V::from(*v).norm();
                 level.force = level.force.max(size(&start.force)).max(size(&end.state.force));
                 level.moment = level.moment.max(size(&start.moment)).max(size(&end.state.moment));
-                let law = &self.lowered.beams[self.lowered.spans[span].beam];
+                if !even {
+                    mark(&mut marks, mesh.start_of(k), &start, (segment, end));
+                }
                 if law.founded.is_nonlinear() {
                     let last = segment.last().map_or(mesh.start_of(k), |stretch| stretch.s[1]);
                     for (s, state) in [(mesh.start_of(k), &start), (last, &end.state)] {
@@ -174,7 +200,7 @@ impl Equilibrium {
                 }
             }
             level.tendons = self.tendon_moment(span);
-            self.levels[span] = level;
+            self.courses[span] = Course { most: level, marks };
         }
         let outcome = if derive { self.eliminate(span, &ends, sink) } else { Ok(()) };
         self.start_rows(span, &held, &wrench, sink);

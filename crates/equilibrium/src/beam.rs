@@ -1,19 +1,26 @@
 //! The law of one beam at any place along it, and pieces of it that can be integrated.
 
 use crate::error::ProblemError;
+use crate::extract::GAUSS;
 use crate::foundation::Founded;
 use crate::scale::Scale;
 use flexura_geometry::{Compliance, RestShape, compliance, is_uniform, mass_per_length, section_breaks};
 use flexura_mechanics::ode::{NODES, STAGES};
 use flexura_mechanics::rod::{Coupled, LawTable, LoadSample, Piece, Shearable, Slender};
 use flexura_model::{Beam, BeamId, LoadAxes, Material, Model, Profile, Section};
-use flexura_spatial::Vector3;
+use flexura_spatial::{Matrix6, Vector3};
 
 /// Rest curvature and compliance at one place, SI.
 #[derive(Clone, Debug)]
 pub(crate) struct LocalLaw {
     pub k0: Vector3<f64>,
     pub compliance: Compliance,
+}
+
+/// The same, nondimensional.
+pub(crate) struct ScaledLaw {
+    pub k0: Vector3<f64>,
+    pub compliance: Matrix6<f64>,
 }
 
 impl LocalLaw {
@@ -26,11 +33,21 @@ impl LocalLaw {
 }
 
 /// Where stage `i` of `steps` steps from `a` to `b` lies: a hair inside, so that a jump at an end is seen from the
-/// piece's own side.
+/// piece's own side. Where something jumps is known to a few digits of the arc length at best.
 pub(crate) fn stage(a: f64, b: f64, steps: usize, i: usize) -> f64 {
-    let inset = 1e-12 * (b - a);
+    let inset = (1e-12 * (b - a)).max(8.0 * f64::EPSILON * b).min(0.01 * (b - a));
     let x = ((i / STAGES) as f64 + NODES[i % STAGES]) / steps as f64;
     (a + (b - a) * x).clamp(a + inset, b - inset)
+}
+
+/// Parts from `a` to `b` that get shorter towards both ends.
+pub(crate) fn graded(a: f64, b: f64, halvings: i32) -> Vec<[f64; 2]> {
+    let at = |x: f64| a + (b - a) * x;
+    let mut ends = vec![0.0];
+    ends.extend((1..=halvings).rev().map(|k| 0.5f64.powi(k)));
+    ends.extend((2..=halvings).map(|k| 1.0 - 0.5f64.powi(k)));
+    ends.push(1.0);
+    ends.windows(2).map(|pair| [at(pair[0]), at(pair[1])]).collect()
 }
 
 /// One beam of the model, ready to be cut into pieces.
@@ -46,10 +63,14 @@ pub(crate) struct BeamLaw {
     loaded: bool,
     loads_uniform: bool,
     coupled: bool,
+    /// Arc lengths inside the beam where something is not smooth, increasing.
+    breaks: Vec<f64>,
     pub founded: Founded,
     pub scale: Scale,
-    /// Softest and stiffest of the bending and torsional compliances found on a scan, SI.
-    pub softest: f64,
+    /// Largest of the bending and torsional compliances found on a scan, SI.
+    softest: f64,
+    /// What that compliance counts for along the whole beam, SI; the same where it is the same everywhere.
+    supple: f64,
     /// Largest of the compliances in stretching and shear, SI.
     yielding: f64,
     /// Compliance in stretching besides that of the section, SI; zero but on the way to an equilibrium.
@@ -77,9 +98,11 @@ impl BeamLaw {
                 .all(|d| d.force.iter().chain(&d.moment).all(|p| p.as_constant().is_some()))
                 && is_uniform(&section),
             coupled: false,
+            breaks: Vec::new(),
             gravity: model.gravity,
             scale: Scale { length: 1.0, force: 1.0 },
             softest: 0.0,
+            supple: 0.0,
             yielding: 0.0,
             softening: 0.0,
             founded: Founded::new(&beam, length)?,
@@ -90,16 +113,22 @@ impl BeamLaw {
             section,
             material,
         };
+        law.breaks = law.find_breaks();
         law.scan(&path)?;
+        law.supple = law.find_supple();
         Ok(law)
     }
 
     /// Looks at the whole beam once, so that later evaluations cannot fail.
     fn scan(&mut self, path: &str) -> Result<(), ProblemError> {
         let same = self.uniform && self.loads_uniform && self.beam.distributed.is_empty();
-        let places = if same { 1 } else { 65 };
-        for i in 0..places {
-            let s = if same { 0.5 * self.length } else { self.length * i as f64 / (places - 1) as f64 };
+        let places = if same { vec![0.5 * self.length] } else { self.scanned() };
+        self.loaded = self
+            .beam
+            .distributed
+            .iter()
+            .any(|d| d.force.iter().chain(&d.moment).any(|profile| profile.as_constant() != Some(0.0)));
+        for s in places {
             let law = self.try_law_at(s).map_err(|error| {
                 ProblemError::new(format!("section.{}", self.section.name), error, format!("used by {path}"))
             })?;
@@ -137,9 +166,52 @@ impl BeamLaw {
         Ok(())
     }
 
-    /// EI of the softest bending or torsion, N·m².
+    /// Places all along, and some of every interval between breaks.
+    fn scanned(&self) -> Vec<f64> {
+        let mut places: Vec<f64> = (0..=64).map(|i| self.length * f64::from(i) / 64.0).collect();
+        let mut from = 0.0;
+        for to in self.breaks.iter().copied().chain([self.length]) {
+            places.extend([0.1, 0.5, 0.9].map(|x| from + (to - from) * x));
+            from = to;
+        }
+        places
+    }
+
+    /// EI of the softest bending or torsion, N·m², averaged where it varies.
     pub fn stiffness(&self) -> f64 {
-        1.0 / self.softest
+        1.0 / self.supple
+    }
+
+    /// The compliance by which the beam as a whole bends: ∫c w ds/∫w ds, weighted by how a moment runs along it. A tip that is
+    /// thin and that carries nothing does not make a beam soft.
+    fn find_supple(&self) -> f64 {
+        if is_uniform(&self.section) {
+            return self.softest;
+        }
+        let power = match (&self.beam.end, self.loaded) {
+            (Some(_), _) => 0,
+            (None, false) => 1,
+            (None, true) => 2,
+        };
+        let mut ends = vec![0.0];
+        ends.extend(&self.breaks);
+        ends.push(self.length);
+        // Few breaks: parts that get shorter towards both ends of every interval.
+        let halvings = if ends.len() > 12 { 1 } else { 16 };
+        let (mut sums, mut whole) = ([0.0; 3], 0.0);
+        for pair in ends.windows(2) {
+            for [a, b] in graded(pair[0], pair[1], halvings) {
+                for (node, weight) in GAUSS {
+                    let s = a + (b - a) * node;
+                    let c = self.law_at(s).compliance.to_matrix();
+                    let weight = weight * (b - a) * (1.0 - s / self.length).powi(power);
+                    (0..3).for_each(|i| sums[i] += weight * c[(3 + i, 3 + i)]);
+                    whole += weight;
+                }
+            }
+        }
+        let supple = sums.into_iter().fold(0.0, f64::max) / whole;
+        if supple > 0.0 && supple.is_finite() { supple } else { self.softest }
     }
 
     pub fn set_scale(&mut self, scale: Scale) {
@@ -172,13 +244,28 @@ impl BeamLaw {
     }
 
     /// Arc lengths inside the beam where something is not smooth, SI, increasing.
-    pub fn breaks(&self) -> Vec<f64> {
+    pub fn breaks(&self) -> &[f64] {
+        &self.breaks
+    }
+
+    /// Is everything the same all along: curvature, section, loads and foundations?
+    pub fn is_even(&self) -> bool {
+        self.uniform && (self.loads_uniform || !self.loaded) && self.founded.is_even()
+    }
+
+    pub fn is_coupled(&self) -> bool {
+        self.coupled
+    }
+
+    pub fn section(&self) -> &Section {
+        &self.section
+    }
+
+    fn find_breaks(&self) -> Vec<f64> {
         let mut breaks = self.shape.breaks().to_vec();
         breaks.extend(section_breaks(&self.section, self.length));
         for load in &self.beam.distributed {
-            for profile in load.force.iter().chain(&load.moment) {
-                breaks.extend(profile.breaks(self.length));
-            }
+            breaks.extend(load.breaks(self.length));
         }
         breaks.extend(self.founded.breaks(self.length));
         breaks.retain(|s| *s > 0.0 && *s < self.length);
@@ -223,7 +310,7 @@ impl BeamLaw {
                 *value += profile.value(s, self.length);
             }
         };
-        for load in &self.beam.distributed {
+        for load in self.beam.distributed.iter().filter(|load| load.acts_at(s, self.length)) {
             match load.axes {
                 LoadAxes::Global => {
                     at(&load.force, &mut sample.dead_force);
@@ -245,7 +332,31 @@ impl BeamLaw {
         sample
     }
 
-    fn scaled_load(&self, s: f64) -> LoadSample {
+    /// The law at `s`, nondimensional.
+    pub fn scaled_law(&self, s: f64) -> ScaledLaw {
+        let law = self.law_at(s);
+        let (length, force) = (self.scale.length, self.scale.force);
+        let unit = |i: usize| if i < 3 { 1.0 } else { length };
+        let c = law.compliance.to_matrix();
+        ScaledLaw {
+            k0: law.k0 * length,
+            compliance: Matrix6::from_fn(|i, j| c[(i, j)] * force * unit(i) * unit(j)),
+        }
+    }
+
+    /// Force and moment per length, nondimensional, that may act between two arc lengths without that a few places show it.
+    pub fn hidden_load(&self, a: f64, b: f64) -> [f64; 2] {
+        let (per_force, per_moment) = (self.scale.length / self.scale.force, 1.0 / self.scale.force);
+        let hidden = |profiles: &[Profile; 3]| -> f64 {
+            profiles.iter().filter_map(|p| p.variation(a, b)).map(|v| v.hidden()).sum()
+        };
+        let here = || self.beam.distributed.iter().filter(|d| d.acts_at(0.5 * (a + b), self.length));
+        let force: f64 = here().map(|d| hidden(&d.force)).sum();
+        let moment: f64 = here().map(|d| hidden(&d.moment)).sum();
+        [force * per_force, moment * per_moment]
+    }
+
+    pub fn scaled_load(&self, s: f64) -> LoadSample {
         let (per_force, per_moment) = (self.scale.length / self.scale.force, 1.0 / self.scale.force);
         let load = self.load_at(s);
         LoadSample {
@@ -323,21 +434,19 @@ impl BeamLaw {
         }
     }
 
-    /// Largest rest curvature between `a` and `b`, nondimensional.
-    pub fn rest_rate(&self, a: f64, b: f64) -> f64 {
-        if let Some(k0) = self.shape.uniform() {
-            return k0.norm() * self.scale.length;
-        }
-        let n = 16;
-        (0..=n)
-            .map(|i| self.shape.curvature(a + (b - a) * (i as f64 + 1e-9) / (n as f64 + 2e-9)).norm())
-            .fold(0.0, f64::max)
-            * self.scale.length
+    /// Rest curvature, nondimensional, where it is the same everywhere.
+    pub fn rest_rate(&self) -> f64 {
+        self.shape.uniform().map_or(0.0, |k0| k0.norm() * self.scale.length)
     }
 
     /// Largest of the compliances in stretching and shear, nondimensional.
     pub fn yields(&self) -> f64 {
         self.yielding * self.scale.force
+    }
+
+    /// ∫ of the compliance in bending along the beam, nondimensional.
+    pub fn supple_all_along(&self) -> f64 {
+        self.supple * self.scale.force * self.scale.length * self.length
     }
 
     /// Largest of the compliances in bending and torsion, nondimensional.

@@ -16,6 +16,10 @@ pub(crate) struct TendonChannel {
     route: Route,
     /// Largest distance from the axis, nondimensional.
     pub reach: f64,
+    /// Arc lengths (m) at which it begins, ends or is not smooth.
+    breaks: Vec<f64>,
+    /// m to a nondimensional length of one.
+    unit: f64,
     /// How fast it winds or swings about the axis, radians or so per nondimensional length.
     pub rate: f64,
 }
@@ -45,7 +49,7 @@ impl Route {
         Vector3::new(0.0, y, z)
     }
 
-    fn is_uniform(&self) -> bool {
+    pub fn is_uniform(&self) -> bool {
         self.offset.iter().all(|profile| profile.as_constant().is_some())
     }
 
@@ -59,7 +63,7 @@ impl Route {
     /// Length in the undeformed beam between `a` and `b`, m.
     pub fn rest_length(&self, law: &BeamLaw, [a, b]: [f64; 2]) -> f64 {
         const PARTS: usize = 64;
-        let mut cuts = law.breaks();
+        let mut cuts = law.breaks().to_vec();
         self.offset.iter().for_each(|profile| cuts.extend(profile.breaks(self.length)));
         cuts.retain(|s| *s > a && *s < b);
         cuts.push(b);
@@ -95,7 +99,23 @@ impl TendonChannel {
             .fold(0.0, f64::max);
         let per = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
         let rate = per(slope, reach).max(per(bend, slope)) * law.scale.length;
-        Self { tendon, s, route, reach: reach / law.scale.length, rate }
+        let mut breaks = s.to_vec();
+        route.offset.iter().for_each(|profile| breaks.extend(profile.breaks(route.length)));
+        breaks.retain(|place| *place >= s[0] && *place <= s[1]);
+        Self { tendon, s, route, breaks, reach: reach / law.scale.length, unit: law.scale.length, rate }
+    }
+
+    /// Does it run at the same place of every section?
+    pub fn is_even(&self) -> bool {
+        self.route.is_uniform()
+    }
+
+    /// How far offset (in parts of the reach) and slope may stray between two arc lengths without that a few places show it.
+    pub fn hidden(&self, [a, b]: [f64; 2]) -> [f64; 2] {
+        let variations = || self.route.offset.iter().filter_map(|profile| profile.variation(a, b));
+        let offset: f64 = variations().map(|v| v.hidden()).sum();
+        let reach = self.reach * self.unit;
+        [if reach > 0.0 { offset / reach } else { 0.0 }, variations().map(|v| v.hidden_slope()).sum()]
     }
 
     /// Does the stretch between `a` and `b` lie in it?
@@ -104,11 +124,8 @@ impl TendonChannel {
         self.s[0] < middle && middle < self.s[1]
     }
 
-    pub fn breaks(&self) -> Vec<f64> {
-        let mut breaks = self.s.to_vec();
-        self.route.offset.iter().for_each(|profile| breaks.extend(profile.breaks(self.route.length)));
-        breaks.retain(|s| *s >= self.s[0] && *s <= self.s[1]);
-        breaks
+    pub fn breaks(&self) -> &[f64] {
+        &self.breaks
     }
 
     /// Offset (m) and slope at `s`.

@@ -71,6 +71,14 @@ impl Founded {
         self.parts.is_empty()
     }
 
+    /// Is every stiffness the same along the beam? A law of the displacement is.
+    pub fn is_even(&self) -> bool {
+        self.parts.iter().all(|part| match &part.law {
+            FoundationLaw::Linear(profile) => profile.as_constant().is_some(),
+            FoundationLaw::Force(_) => true,
+        })
+    }
+
     /// Does a law depend on the displacement otherwise than in proportion?
     pub fn is_nonlinear(&self) -> bool {
         self.parts.iter().any(|part| matches!(part.law, FoundationLaw::Force(_)))
@@ -161,6 +169,22 @@ impl BeamLaw {
         let push = self.foundation_stiffness([0.0, self.length]);
         let length = self.length / self.scale.length;
         length * (0.25 * push * self.soft()).powf(0.25).max((push * self.yields()).sqrt())
+    }
+
+    /// Stiffness at rest at `s` (m), nondimensional.
+    pub fn stiffness_at_rest(&self, s: f64) -> f64 {
+        let unit = self.foundation_unit();
+        self.pushes(s, &V::zeros()).iter().map(|push| unit * push.slope.abs()).sum()
+    }
+
+    /// Stiffness, nondimensional, that may act between two arc lengths without that a few places show it.
+    pub fn hidden_stiffness(&self, a: f64, b: f64) -> f64 {
+        let here = self.founded.parts.iter().filter(|part| covers(part, 0.5 * (a + b), self.length));
+        let hidden = here.filter_map(|part| match &part.law {
+            FoundationLaw::Linear(profile) => profile.variation(a, b).map(|v| v.hidden()),
+            FoundationLaw::Force(_) => None,
+        });
+        self.foundation_unit() * hidden.sum::<f64>()
     }
 
     /// Largest stiffness at rest between two arc lengths, nondimensional.

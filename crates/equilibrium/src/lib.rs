@@ -6,10 +6,11 @@
 //! - `lower`: model -> nodes, spans, joints, couplings, springs, cables;
 //! - `beam`: the law of one beam at any place, as pieces that can be integrated;
 //! - `channel`: tendons in channels along beams;
-//! - `mesh`: how many steps and shooting segments a span gets;
+//! - `mesh`: how many steps and shooting segments a span gets, by `course`, how hard it is loaded along it, and `look`, what its law
+//!   is like there;
 //! - `layout`: which number of the state and which unknown belongs to what;
 //! - `shooting`: spans carried from node to node with their derivatives;
-//! - `prepare`: the state at rest, and when mesh and layout change;
+//! - `prepare`: the state at rest, and when mesh and layout change; `reach`: what would be too much;
 //! - `assembly`: residual and tangent of spans, `head` and `held` of what their starts hang on, `couplings` of joints, loads,
 //!   springs and cables; `system`: the `System` trait on it;
 //! - `accuracy`: the error estimate; `diagnose`: what is loose or held twice; `redundancy`: loops that close nonetheless;
@@ -25,6 +26,7 @@ mod beam;
 mod channel;
 mod coordinates;
 mod couplings;
+mod course;
 mod diagnose;
 mod error;
 mod extract;
@@ -34,11 +36,13 @@ mod head;
 mod held;
 mod layout;
 mod lift;
+mod look;
 mod lower;
 mod mesh;
 mod moving;
 mod neighbour;
 mod prepare;
+mod reach;
 mod redundancy;
 mod regime;
 mod samples;

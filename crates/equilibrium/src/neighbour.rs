@@ -1,13 +1,13 @@
 //! The same mechanism with slightly other numbers: the state stays, the law under it changes.
 
 use crate::error::ProblemError;
+use crate::look::Looks;
 use crate::lower::{self, Lowered};
 use crate::mesh::SpanMesh;
 use crate::system::Equilibrium;
 use flexura_model::{BeamPoint, Model, ProbeTarget, Quantity};
 use flexura_nonlinear::System;
 use flexura_spatial::Vector3;
-use std::cell::Cell;
 
 /// The law of a model in the units, and on the mesh, of the problem that it was made for.
 #[derive(Clone, Debug)]
@@ -63,28 +63,20 @@ impl Equilibrium {
                     && a.end.as_ref().map(|e| e.coordinates.unknowns())
                         == b.end.as_ref().map(|e| e.coordinates.unknowns())
             });
-        let mut meshes = Vec::with_capacity(self.meshes.len());
-        let mut fits = alike;
-        if alike {
-            for (span, mesh) in lowered.spans.iter().zip(&self.meshes) {
-                let law = &lowered.beams[span.beam];
-                let steps: Vec<usize> = mesh.stretches().map(|s| s.piece.steps).collect();
-                let next = Cell::new(0);
-                let new = SpanMesh::build(law, span, mesh.segments.len(), |_| {
-                    next.set(next.get() + 1);
-                    steps.get(next.get() - 1).copied().unwrap_or(1)
-                });
-                fits &= next.get() == steps.len();
-                meshes.push(new);
-            }
-        }
-        if !fits {
+        let meshes = alike.then(|| {
+            let spans = lowered.spans.iter().zip(&self.lowered.spans).zip(&self.meshes);
+            let moved = spans.map(|((span, own), mesh)| {
+                mesh.under((&self.lowered.beams[own.beam], own), (&lowered.beams[span.beam], span))
+            });
+            moved.collect::<Option<Vec<_>>>()
+        });
+        let Some(meshes) = meshes.flatten() else {
             return Err(ProblemError::new(
                 "model",
                 "changes its parts when a parameter changes a little: something appears, vanishes or meets",
                 "move loads, springs and breaks of sections apart, so that they keep their order",
             ));
-        }
+        };
         let mut law = Law { model: model.clone(), lowered, meshes, known_force: Vec::new() };
         law.known_force = crate::prepare::known_forces(&law.lowered, &law.meshes);
         Ok(law)
@@ -97,6 +89,7 @@ impl Equilibrium {
         std::mem::swap(&mut self.lowered, &mut law.lowered);
         std::mem::swap(&mut self.meshes, &mut law.meshes);
         std::mem::swap(&mut self.known_force, &mut law.known_force);
+        self.looks.iter_mut().for_each(Looks::clear);
         let load = self.load;
         self.set_load(load);
         law

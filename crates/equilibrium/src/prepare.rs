@@ -1,9 +1,11 @@
 //! The state at rest, and the mesh and layout that follow from how hard the spans are loaded.
 
-use crate::beam::BeamLaw;
+use crate::beam::{BeamLaw, graded};
+use crate::course::{Course, Level, Mark};
+use crate::extract::GAUSS;
 use crate::layout::Layout;
 use crate::lower::{Lowered, RopeLaw, Span};
-use crate::mesh::{Level, SpanMesh, Stretch};
+use crate::mesh::{Cutter, SpanMesh, Stretch};
 use crate::shooting::{Acting, Plain, SegmentEnd, carry_plain, carry_through, jump};
 use crate::system::{Counts, Equilibrium, write_pose};
 use flexura_mechanics::joint::MAX_CONFIGURATION;
@@ -28,15 +30,22 @@ impl Equilibrium {
         self.counts = Counts::default();
         self.accuracy = self.path_accuracy().min(self.finest_path);
         let first_time = self.meshes.is_empty();
-        self.levels = self.lowered.spans.iter().map(|span| self.expected_level(span)).collect();
-        self.expected.clone_from(&self.levels);
         let forced = self.forced_segments.unwrap_or(1);
         // Along a stiff foundation what a start changes grows even at rest.
-        let unloaded = |span: &Span| Level::default().segments(&self.lowered.beams[span.beam], span);
-        let count = |span| unloaded(span).max(forced);
-        let counts: Vec<usize> =
-            self.lowered.spans.iter().map(|span| if span.undivided { 1 } else { count(span) }).collect();
-        let fits = !first_time && counts.iter().zip(&self.meshes).all(|(c, m)| *c == m.segments.len());
+        self.courses = vec![Course::default(); self.lowered.spans.len()];
+        let counts: Vec<usize> = self
+            .cutters()
+            .map(|mut cutter| if cutter.span.undivided { 1 } else { cutter.segments().max(forced) })
+            .collect();
+        self.courses = self.lowered.spans.iter().map(|span| self.expected_course(span)).collect();
+        self.expected.clone_from(&self.courses);
+        // Where a law varies, segments ended where an earlier state had it.
+        let even = |span: &Span| span.is_even(&self.lowered.beams[span.beam]);
+        let fits =
+            !first_time
+                && counts.iter().zip(&self.meshes).zip(&self.lowered.spans).all(|((count, mesh), span)| {
+                    *count == mesh.segments.len() && (*count == 1 || even(span))
+                });
         if fits {
             self.restep(self.accuracy, false);
             self.set_weights(false);
@@ -70,7 +79,7 @@ impl Equilibrium {
     }
 
     /// What the given loads lead one to expect along a span.
-    fn expected_level(&self, span: &Span) -> Level {
+    fn expected_course(&self, span: &Span) -> Course {
         let mut level = Level::default();
         let law = &self.lowered.beams[span.beam];
         for j in &span.jumps {
@@ -78,35 +87,82 @@ impl Equilibrium {
             level.moment = level.moment.max((j.load.dead.moment + j.load.follower.moment).norm());
         }
         if law.is_loaded() {
-            let piece = law.piece(span.s[0], span.s[1], 1);
-            let total = |q: &[f64; 3]| Vector3::from(*q).norm() * piece.length;
-            level.force += piece
-                .loads
-                .iter()
-                .map(|l| total(&l.dead_force) + total(&l.section_force))
-                .fold(0.0, f64::max);
+            level.force += self.distributed_force(span).last().map_or(0.0, |(_, sum)| *sum);
         }
         for channel in &span.channels {
             if let RopeLaw::Tension(tension) = self.lowered.ropes[span.tendons[channel.tendon]].law {
                 level.tendons += tension * channel.reach;
             }
         }
-        level
+        let mut marks = Vec::new();
+        if span.determinate && !span.is_even(law) {
+            // The force at a place is at most the sum of what acts beyond.
+            let total = level.force;
+            let before = |s: f64| {
+                let jumps = span.jumps.iter().filter(|j| j.s < s);
+                jumps.map(|j| j.load.dead.force.norm()).sum::<f64>()
+            };
+            let mark = |(s, sum): &(f64, f64)| Mark {
+                s: *s,
+                force: (total - sum - before(*s)).max(1e-12 * total),
+                moment: level.moment,
+            };
+            marks = self.distributed_force(span).iter().map(mark).collect();
+        }
+        Course { most: level, marks }
+    }
+
+    /// Arc lengths (m), increasing, and the sum of the sizes of distributed forces up to there.
+    fn distributed_force(&self, span: &Span) -> Vec<(f64, f64)> {
+        let law = &self.lowered.beams[span.beam];
+        if span.is_even(law) && law.breaks().is_empty() {
+            let piece = law.piece(span.s[0], span.s[1], 1);
+            let size = |q: &[f64; 3]| Vector3::from(*q).norm() * piece.length;
+            let total = piece.loads.iter().map(|l| size(&l.dead_force) + size(&l.section_force));
+            return vec![(span.s[0], 0.0), (span.s[1], total.fold(0.0, f64::max))];
+        }
+        let mut sum = 0.0;
+        let mut sums = vec![(span.s[0], 0.0)];
+        let places = span.inside(law);
+        for pair in places.windows(2) {
+            for [a, b] in graded(pair[0], pair[1], if places.len() > 12 { 2 } else { 20 }) {
+                for (node, weight) in GAUSS {
+                    let load = law.scaled_load(a + (b - a) * node);
+                    let size = |q: &[f64; 3]| Vector3::from(*q).norm();
+                    let density = size(&load.dead_force) + size(&load.section_force);
+                    sum += weight * (b - a) / law.scale.length * density;
+                }
+                sums.push((b, sum));
+            }
+        }
+        sums
+    }
+
+    /// What cuts each span.
+    pub(crate) fn cutters(&mut self) -> impl Iterator<Item = Cutter<'_>> {
+        let (lowered, accuracy) = (&self.lowered, self.accuracy);
+        let spans = lowered.spans.iter().zip(&mut self.looks).zip(&self.courses);
+        spans.map(move |((span, looks), course)| Cutter {
+            law: &lowered.beams[span.beam],
+            span,
+            looks,
+            course,
+            accuracy,
+        })
+    }
+
+    /// The same together with the meshes.
+    fn meshed_cutters(&mut self) -> impl Iterator<Item = (Cutter<'_>, &mut SpanMesh)> {
+        let (lowered, accuracy) = (&self.lowered, self.accuracy);
+        let spans = lowered.spans.iter().zip(&mut self.looks).zip(&self.courses).zip(&mut self.meshes);
+        spans.map(move |(((span, looks), course), mesh)| {
+            (Cutter { law: &lowered.beams[span.beam], span, looks, course, accuracy }, mesh)
+        })
     }
 
     pub(crate) fn remesh(&mut self, counts: &[usize]) {
         let accuracy = self.accuracy;
-        self.meshes = self
-            .lowered
-            .spans
-            .iter()
-            .zip(counts)
-            .zip(&self.levels)
-            .map(|((span, &count), level)| {
-                let law = &self.lowered.beams[span.beam];
-                SpanMesh::build(law, span, count, |s| level.steps(law, span, s, accuracy))
-            })
-            .collect();
+        self.meshes = self.cutters().zip(counts).map(|(mut cutter, count)| cutter.build(*count)).collect();
         self.layout = Layout::new(&self.lowered, &self.meshes);
         self.ends = self.meshes.iter().map(|m| vec![SegmentEnd::new(); m.segments.len()]).collect();
         self.chains = vec![Chain::default(); self.meshes.len()];
@@ -124,13 +180,7 @@ impl Equilibrium {
     /// Adapts the number of steps to the present levels; never fewer than now if `grow`.
     pub(crate) fn restep(&mut self, accuracy: f64, grow: bool) {
         self.accuracy = accuracy;
-        for ((span, mesh), level) in self.lowered.spans.iter().zip(&mut self.meshes).zip(&self.levels) {
-            let law: &BeamLaw = &self.lowered.beams[span.beam];
-            mesh.restep(law, span, |s, present| {
-                let wanted = level.steps(law, span, s, accuracy);
-                if grow { wanted.max(present) } else { wanted }
-            });
-        }
+        self.meshed_cutters().for_each(|(mut cutter, mesh)| cutter.restep(mesh, grow));
         for (nest, steps) in self.lowered.nests.iter().zip(&mut self.tube_steps) {
             for (present, wanted) in steps.iter_mut().zip(nest.steps(accuracy)) {
                 *present = if grow { wanted.max(*present) } else { wanted };
@@ -143,12 +193,18 @@ impl Equilibrium {
     pub(crate) fn multiply_steps(&mut self, factor: f64) {
         for (span, mesh) in self.lowered.spans.iter().zip(&mut self.meshes) {
             let law: &BeamLaw = &self.lowered.beams[span.beam];
-            mesh.restep(law, span, |_, present| ((present as f64 * factor).ceil() as usize).max(present + 1));
+            mesh.multiply(law, span, |_, present| {
+                ((present as f64 * factor).ceil() as usize).max(present + 1)
+            });
         }
+        self.multiply_tube_steps(factor);
+        self.sum_known_forces();
+    }
+
+    pub(crate) fn multiply_tube_steps(&mut self, factor: f64) {
         for steps in self.tube_steps.iter_mut().flatten() {
             *steps = ((*steps as f64 * factor).ceil() as usize).max(*steps + 1);
         }
-        self.sum_known_forces();
     }
 
     pub(crate) fn total_steps(&self) -> usize {
@@ -161,20 +217,24 @@ impl Equilibrium {
         self.known_force = known_forces(&self.lowered, &self.meshes);
     }
 
+    /// The state at the start of a segment, behind what jumps there.
+    pub(crate) fn segment_start(&self, span: usize, segment: usize) -> Plain {
+        if segment > 0 {
+            return self.inner_state(self.layout.spans[span].inner[segment - 1].state);
+        }
+        let mut head = self.head_state(span);
+        for &j in &self.meshes[span].first_jumps {
+            jump(&self.lowered.spans[span].jumps[j], self.load, &mut head);
+        }
+        head
+    }
+
     /// The state at arc length `s` of a span, starting from the segment that holds it.
     pub(crate) fn state_at(&self, span: usize, s: f64) -> Plain {
         let mesh = &self.meshes[span];
         let segment = (0..mesh.segments.len()).rev().find(|&k| mesh.start_of(k) <= s).unwrap_or(0);
         let jumps = &self.lowered.spans[span].jumps;
-        let mut state = if segment == 0 {
-            let mut head = self.head_state(span);
-            for &j in &mesh.first_jumps {
-                jump(&jumps[j], self.load, &mut head);
-            }
-            head
-        } else {
-            self.inner_state(self.layout.spans[span].inner[segment - 1].state)
-        };
+        let mut state = self.segment_start(span, segment);
         let description = &self.lowered.spans[span];
         let law = &self.lowered.beams[description.beam];
         let pulls = self.pulls(span);
@@ -196,15 +256,10 @@ impl Equilibrium {
     }
 
     /// How many segments the spans should have.
-    fn wanted_segments(&self) -> Vec<usize> {
-        self.lowered
-            .spans
-            .iter()
-            .zip(&self.levels)
-            .zip(&self.meshes)
-            .map(|((span, level), mesh)| {
-                let wanted = level.segments(&self.lowered.beams[span.beam], span);
-                let present = mesh.segments.len();
+    fn wanted_segments(&mut self) -> Vec<usize> {
+        self.meshed_cutters()
+            .map(|(mut cutter, mesh)| {
+                let (wanted, present) = (cutter.segments(), mesh.segments.len());
                 // A little more than needed, so that a growing force does not cut again at every step.
                 if wanted > present { (wanted * 3).div_ceil(2) } else { present }
             })
@@ -212,16 +267,32 @@ impl Equilibrium {
     }
 
     /// Have forces grown so that the spans should be cut into more segments, which changes the layout of the state?
-    pub fn wants_segments(&self) -> bool {
+    pub fn wants_segments(&mut self) -> bool {
         self.wanted_segments().iter().zip(&self.meshes).any(|(c, m)| *c != m.segments.len())
     }
 
     /// Have forces grown so that the mesh should have more steps?
-    pub fn wants_steps(&self) -> bool {
-        self.lowered.spans.iter().zip(&self.meshes).zip(&self.levels).any(|((span, mesh), level)| {
-            let law = &self.lowered.beams[span.beam];
-            mesh.stretches().any(|s| level.steps(law, span, s.s, self.accuracy) > s.piece.steps)
-        })
+    pub fn wants_steps(&mut self) -> bool {
+        self.meshed_cutters().any(|(mut cutter, mesh)| cutter.wants_steps(mesh))
+    }
+
+    /// ∫√(F/EI) ds along a span under a fraction of the load.
+    pub(crate) fn span_phase(&self, index: usize, load: f64) -> f64 {
+        let (span, expected, course) =
+            (&self.lowered.spans[index], &self.expected[index], &self.courses[index]);
+        let law = &self.lowered.beams[span.beam];
+        let now = |force: f64| if self.load > 1e-3 { force / self.load } else { 0.0 };
+        let part = |s: [f64; 2], force: f64, soft: f64| {
+            (force * load * soft).sqrt() * ((s[1] - s[0]) / law.scale.length)
+        };
+        if span.is_even(law) {
+            return part(span.s, expected.most.force.max(now(course.most.force)), law.soft());
+        }
+        let each = self.meshes[index].stretches().map(|stretch| {
+            let force = expected.over(stretch.s).force.max(now(course.over(stretch.s).force));
+            part(stretch.s, force, stretch.look.soft)
+        });
+        each.sum()
     }
 
     /// Makes a mesh of this accuracy.

@@ -129,7 +129,8 @@ impl Equilibrium {
         let force = self.lowered.scale.force;
         let pushes = (0..self.lowered.ropes.len()).find(|&i| {
             self.layout.ropes[i].is_some()
-                && self.tension(i) < -SLACK * self.levels.iter().map(|l| l.force).fold(1.0, f64::max)
+                && self.tension(i)
+                    < -SLACK * self.courses.iter().map(|course| course.most.force).fold(1.0, f64::max)
         })?;
         Some((format!("cable.{}", self.model.cables[pushes].name), -self.tension(pushes) * force))
     }

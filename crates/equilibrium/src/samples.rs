@@ -98,7 +98,7 @@ impl Equilibrium {
             places.extend(span.jumps.iter().map(|j| j.s));
             places.extend(span.channels.iter().flat_map(|channel| channel.breaks()));
         }
-        places.extend(self.lowered.beams[beam].breaks());
+        places.extend_from_slice(self.lowered.beams[beam].breaks());
         places.sort_by(f64::total_cmp);
         places.dedup_by(|a, b| (*a - *b).abs() < 1e-12 * length);
         if let Some(last) = places.last_mut() {

@@ -29,6 +29,8 @@ pub(crate) struct SegmentEnd {
     pub state: Plain,
     pub columns: [Column; MAX_COLUMNS],
     pub count: usize,
+    /// Force and moment at the end of every stretch, the larger of before and after what jumps there.
+    pub met: Vec<[f64; 2]>,
     /// Length of each of the span's tendons along the segment, with its derivatives from place 1 on.
     pub lengths: Vec<[f64; 1 + MAX_COLUMNS]>,
 }
@@ -60,7 +62,13 @@ impl SegmentEnd {
     }
 
     pub fn new() -> Self {
-        Self { state: Plain::origin(), columns: [[0.0; 12]; MAX_COLUMNS], count: 0, lengths: Vec::new() }
+        Self {
+            state: Plain::origin(),
+            columns: [[0.0; 12]; MAX_COLUMNS],
+            count: 0,
+            met: Vec::new(),
+            lengths: Vec::new(),
+        }
     }
 }
 
@@ -133,15 +141,39 @@ pub(crate) fn carry_through(stretch: &Stretch, acting: &Acting<'_>, state: &mut 
 
 /// Values only, along stretches with what jumps at their ends; the lengths of the tendons.
 pub(crate) fn carry_plain(stretches: &[Stretch], acting: &Acting<'_>, state: &mut Plain) -> Vec<[f64; 1]> {
+    carry_marked(stretches, acting, state, &mut Vec::new())
+}
+
+/// The same, with force and moment at the end of every stretch.
+pub(crate) fn carry_marked(
+    stretches: &[Stretch],
+    acting: &Acting<'_>,
+    state: &mut Plain,
+    met: &mut Vec<[f64; 2]>,
+) -> Vec<[f64; 1]> {
+    met.clear();
     let tensions: Vec<[f64; 1]> = acting.pulls.iter().map(|pull| [pull.tension]).collect();
     let mut lengths = vec![[0.0; 1]; tensions.len()];
     for stretch in stretches {
         carry_stretch(stretch, acting.load, &tensions, state, &mut lengths);
+        let before = if stretches.len() > 1 { sizes(state) } else { [0.0; 2] };
         for &j in &stretch.jumps {
             jump(&acting.jumps[j], acting.load, state);
         }
+        if stretches.len() > 1 {
+            met.push(larger(before, sizes(state)));
+        }
     }
     lengths
+}
+
+/// Size of force and moment.
+fn sizes<const W: usize>(state: &RodState<W>) -> [f64; 2] {
+    [state.force, state.moment].map(|v| Vector3::from(v).norm())
+}
+
+fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].max(b[0]), a[1].max(b[1])]
 }
 
 fn carry_lanes<const W: usize>(
@@ -179,10 +211,16 @@ fn carry_lanes<const W: usize>(
     for &j in first {
         jump(&acting.jumps[j], acting.load, &mut lanes);
     }
+    end.met.clear();
     for stretch in stretches {
         carry_stretch(stretch, acting.load, &tensions, &mut lanes, &mut lengths);
+        // One stretch alone ends where the segment does.
+        let before = if stretches.len() > 1 { sizes(&lanes) } else { [0.0; 2] };
         for &j in &stretch.jumps {
             jump(&acting.jumps[j], acting.load, &mut lanes);
+        }
+        if stretches.len() > 1 {
+            end.met.push(larger(before, sizes(&lanes)));
         }
     }
     end.state = Plain {

@@ -1,7 +1,7 @@
 //! Putting the mechanism where an earlier result has it, and pushing it off its path.
 
+use crate::course::{Course, Mark};
 use crate::lower::{JointOrigin, NodeOrigin};
-use crate::mesh::Level;
 use crate::system::{Equilibrium, write_pose};
 use flexura_mechanics::joint::{Kinematics, MAX_FREEDOMS};
 use flexura_nonlinear::System;
@@ -16,21 +16,17 @@ impl Equilibrium {
         let scale = self.lowered.scale;
         for (i, span) in self.lowered.spans.iter().enumerate() {
             let Some(beam) = solution.beams.get(span.beam) else { continue };
-            let mut level = Level::default();
+            let mut course = Course::default();
             for sample in beam.samples.iter().filter(|s| s.s >= span.s[0] && s.s <= span.s[1]) {
                 let wrench = scale.wrench_in(&self.whole(span.beam, sample, solution));
-                level.force = level.force.max(wrench.force.norm());
-                level.moment = level.moment.max(wrench.moment.norm());
+                let (force, moment) = (wrench.force.norm(), wrench.moment.norm());
+                course.most.force = course.most.force.max(force);
+                course.most.moment = course.most.moment.max(moment);
+                course.marks.push(Mark { s: sample.s, force, moment });
             }
-            self.levels[i] = level;
+            self.courses[i] = course;
         }
-        let counts: Vec<usize> = self
-            .lowered
-            .spans
-            .iter()
-            .zip(&self.levels)
-            .map(|(span, level)| level.segments(&self.lowered.beams[span.beam], span))
-            .collect();
+        let counts: Vec<usize> = self.cutters().map(|mut cutter| cutter.segments()).collect();
         self.remesh(&counts);
         self.stand_on_same_mesh(solution);
     }

@@ -1,10 +1,12 @@
 //! The prepared problem, and what `nonlinear` needs to solve it.
 
 use crate::coordinates::Coordinates;
+use crate::course::Course;
 use crate::error::ProblemError;
 use crate::layout::{CoordinateSlot, Layout, PoseSlot};
+use crate::look::Looks;
 use crate::lower::{self, Lowered};
-use crate::mesh::{Level, SpanMesh};
+use crate::mesh::SpanMesh;
 use crate::shooting::{Plain, SegmentEnd};
 use flexura_mechanics::joint::Configuration;
 use flexura_model::{BeamPoint, JointKind, LoadId, LoadTarget, Model};
@@ -44,9 +46,11 @@ pub struct Equilibrium {
     pub(crate) r: Vec<f64>,
     /// Ends of all segments of all spans, at the last evaluation.
     pub(crate) ends: Vec<Vec<SegmentEnd>>,
-    pub(crate) levels: Vec<Level>,
-    /// Levels to be expected at the full load.
-    pub(crate) expected: Vec<Level>,
+    /// How hard the spans are loaded now, and what is to be expected at the full load.
+    pub(crate) courses: Vec<Course>,
+    pub(crate) expected: Vec<Course>,
+    /// What was seen of the laws of the spans.
+    pub(crate) looks: Vec<Looks>,
     pub(crate) weights: Vec<f64>,
     scratch: Vec<f64>,
     /// The step by which the state was last moved.
@@ -125,8 +129,9 @@ impl Equilibrium {
             gaps: Vec::new(),
             r: Vec::new(),
             ends: Vec::new(),
-            levels: Vec::new(),
+            courses: Vec::new(),
             expected: Vec::new(),
+            looks: vec![Looks::default(); lowered.spans.len()],
             weights: Vec::new(),
             scratch: Vec::new(),
             last_step: Vec::new(),
@@ -242,8 +247,8 @@ impl Equilibrium {
     pub(crate) fn set_weights(&mut self, relative: bool) {
         self.weights.clear();
         self.weights.resize(self.layout.unknowns, 1.0);
-        for ((span, slots), level) in self.lowered.spans.iter().zip(&self.layout.spans).zip(&self.levels) {
-            let law = &self.lowered.beams[span.beam];
+        for ((span, slots), course) in self.lowered.spans.iter().zip(&self.layout.spans).zip(&self.courses) {
+            let (law, level) = (&self.lowered.beams[span.beam], &course.most);
             let [mut force, mut moment] = law.wrench_unit;
             if relative {
                 force = force.max(level.force);
@@ -263,7 +268,7 @@ impl Equilibrium {
                 }
             }
         }
-        let largest = self.levels.iter().map(|l| l.force.max(l.tendons)).fold(1.0, f64::max);
+        let largest = self.courses.iter().map(|c| c.most.force.max(c.most.tendons)).fold(1.0, f64::max);
         if relative {
             for slots in &self.layout.joints {
                 let at = slots.wrench.unknown;
@@ -578,22 +583,15 @@ impl System for Equilibrium {
             if slots.wrench.count == 6 {
                 let at = slots.wrench.unknown;
                 let force = Vector3::new(response[at], response[at + 1], response[at + 2]).norm();
-                self.expected[i].force = self.expected[i].force.max(force);
+                self.expected[i].raise(force);
             }
         }
     }
 
-    /// √(F/EI) L of the span where that is largest: the shooting tangent of a loaded straight rod goes like its
+    /// ∫√(F/EI) ds along the span where that is largest: the shooting tangent of a loaded straight rod goes like its
     /// cosine. The force is taken to grow with the load from what it is now, or from what is expected.
     fn phase(&self, load: f64) -> f64 {
-        let mut largest = 0.0_f64;
-        for ((span, expected), level) in self.lowered.spans.iter().zip(&self.expected).zip(&self.levels) {
-            let law = &self.lowered.beams[span.beam];
-            let now = if self.load > 1e-3 { level.force / self.load } else { 0.0 };
-            let length = (span.s[1] - span.s[0]) / law.scale.length;
-            largest = largest.max((expected.force.max(now) * load * law.soft()).sqrt() * length);
-        }
-        largest
+        (0..self.lowered.spans.len()).map(|span| self.span_phase(span, load)).fold(0.0, f64::max)
     }
 
     fn renew(&mut self) -> bool {

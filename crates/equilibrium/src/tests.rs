@@ -82,6 +82,7 @@ pub(crate) fn everything() -> Model {
         force: constants([0.2, -0.5, 0.3]),
         moment: constants([0.1, 0.05, 0.2]),
         axes: LoadAxes::Section,
+        between: Distributed::EVERYWHERE,
     });
     m.beams.push(first);
     m.beams.push(beam(

@@ -1,6 +1,6 @@
 //! Beams: rest shape, theory, ends and distributed loads.
 
-use crate::{Foundation, JointLaw, MaterialId, Mount, Profile, SectionId};
+use crate::{At, Foundation, JointLaw, MaterialId, Mount, Profile, SectionId};
 use flexura_expression::Function;
 use flexura_spatial::{Pose, Vector3};
 
@@ -145,4 +145,25 @@ pub struct Distributed {
     pub moment: [Profile; 3],
     /// In which axes.
     pub axes: LoadAxes,
+    /// Where it begins and ends along the beam.
+    pub between: [At; 2],
+}
+
+impl Distributed {
+    /// All along the beam.
+    pub const EVERYWHERE: [At; 2] = [At::Fraction(0.0), At::Fraction(1.0)];
+
+    /// Does it act at arc length `s` (m) of a beam of the given length?
+    pub fn acts_at(&self, s: f64, length: f64) -> bool {
+        let [from, to] = self.between.map(|at| at.arc_length(length));
+        from <= s && s <= to
+    }
+
+    /// Arc lengths (m) at which it begins, ends or is not smooth.
+    pub fn breaks(&self, length: f64) -> Vec<f64> {
+        let mut breaks = self.between.map(|at| at.arc_length(length)).to_vec();
+        let profiles = self.force.iter().chain(&self.moment);
+        breaks.extend(profiles.flat_map(|profile| profile.breaks(length)));
+        breaks
+    }
 }

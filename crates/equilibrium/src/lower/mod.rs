@@ -80,6 +80,29 @@ pub(crate) struct Span {
     pub undivided: bool,
 }
 
+impl Span {
+    /// Is everything the same all along it?
+    pub fn is_even(&self, law: &BeamLaw) -> bool {
+        law.is_even() && self.channels.iter().all(TendonChannel::is_even)
+    }
+
+    /// Its ends and the places inside it at which something jumps or is not smooth, in order.
+    pub fn inside(&self, law: &BeamLaw) -> Vec<f64> {
+        let mut places = self.happenings(law);
+        crate::mesh::order(&mut places, self.s, law.length);
+        places.insert(0, self.s[0]);
+        places
+    }
+
+    /// Arc lengths (m) of the beam at which something jumps or is not smooth, in no order.
+    pub fn happenings(&self, law: &BeamLaw) -> Vec<f64> {
+        let mut places = law.breaks().to_vec();
+        places.extend(self.jumps.iter().map(|j| j.s));
+        places.extend(self.channels.iter().flat_map(TendonChannel::breaks));
+        places
+    }
+}
+
 /// What a joint between two nodes stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum JointOrigin {

@@ -49,26 +49,28 @@ fn half_hat(v: &[f64; 3]) -> Matrix3<f64> {
 }
 
 impl Form {
-    /// Carries the stretch, `length` long, from `start`; `soft` is the beam's softest compliance. None where the stretch is not
-    /// stable by itself.
+    /// Carries a stretch, which may consist of several pieces, from `start`; `soft` is the largest compliance along it. None where
+    /// it is not stable by itself.
     pub fn new(
-        stretch: &Stretch,
+        pieces: &[Stretch],
         soft: f64,
         (load, pulls): (f64, &[Pull]),
         start: &Plain,
         end: &mut SegmentEnd,
     ) -> Option<Self> {
-        let loads = &stretch.piece.loads;
         // Neither a load that keeps its direction nor a foundation goes along when all is moved.
-        let directed = stretch.piece.foundation.is_some()
-            || loads.iter().any(|l| l.dead_force != [0.0; 3] || l.dead_moment != [0.0; 3]);
+        let directed = pieces.iter().any(|stretch| {
+            let loads = &stretch.piece.loads;
+            stretch.piece.foundation.is_some()
+                || loads.iter().any(|l| l.dead_force != [0.0; 3] || l.dead_moment != [0.0; 3])
+        });
         let acting = Acting { jumps: &[], load, pulls };
-        let (length, s_ends) = (stretch.piece.length, stretch.s);
-        let stretch = std::slice::from_ref(stretch);
+        let length: f64 = pieces.iter().map(|stretch| stretch.piece.length).sum();
+        let s_ends = [pieces.first()?.s[0], pieces.last()?.s[1]];
         let (mut p, mut q) = (Matrix6::zeros(), Matrix6::zeros());
         let (mut r, mut s) = (Matrix6::zeros(), Matrix6::zeros());
         end.seed(if directed { 0 } else { 6 });
-        carry_columns(stretch, &acting, &[], start, end);
+        carry_columns(pieces, &acting, &[], start, end);
         // Rows of a column: turning, shift, force, moment; of ours: turning, shift and moment, force.
         let wrenches = &end.columns[end.count - 6..end.count];
         for j in 0..6 {

@@ -34,6 +34,17 @@ pub fn is_uniform(section: &Section) -> bool {
     profiles(&section.shape).iter().all(|profile| profile.as_constant().is_some())
 }
 
+/// By which part the dimensions may vary between two arc lengths (m), none of their breaks between them, without that a few places
+/// there show it.
+pub fn section_hidden(section: &Section, a: f64, b: f64, length: f64) -> f64 {
+    let part = |profile: &Profile| {
+        let hidden = profile.variation(a, b)?.hidden();
+        let size = profile.value(0.5 * (a + b), length).abs();
+        Some(if hidden > 0.0 { hidden / size } else { 0.0 })
+    };
+    profiles(&section.shape).into_iter().filter_map(part).sum()
+}
+
 /// Arc lengths (m) strictly inside a beam of the given length at which the section's dimensions have a
 /// kink. Increasing.
 pub fn section_breaks(section: &Section, length: f64) -> Vec<f64> {

@@ -91,6 +91,12 @@ impl Model {
         }
         super::foundation::check_foundations(beam, length, issues);
         for (i, distributed) in beam.distributed.iter().enumerate() {
+            if let Some(length) = length {
+                // In the words of the file: a single one stands there as a table.
+                let index = if beam.distributed.len() == 1 { String::new() } else { format!("[{i}]") };
+                let path = format!("{path}.distributed{index}");
+                super::foundation::check_reach(&distributed.between, length, "load", &path, issues);
+            }
             for (profiles, word) in [(&distributed.force, "force"), (&distributed.moment, "moment")] {
                 for (k, profile) in profiles.iter().enumerate() {
                     let path = format!("{path}.distributed[{i}].{word}[{k}]");

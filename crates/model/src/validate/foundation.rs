@@ -2,7 +2,7 @@
 
 use super::Issues;
 use super::section::{check_table, worst};
-use crate::{Beam, Foundation, FoundationLaw, Profile};
+use crate::{At, Beam, Foundation, FoundationLaw, Profile};
 use flexura_spatial::Vector3;
 
 /// Displacements, as parts of the beam's length, at which a law must give a number.
@@ -24,22 +24,25 @@ pub(super) fn check_foundations(beam: &Beam, length: Option<f64>, issues: &mut I
             }
         }
         let Some(length) = length else { continue };
-        let ends = foundation.between.map(|at| at.arc_length(length));
-        for (s, word) in ends.iter().zip(["from", "to"]) {
-            if !(-1e-9 * length..=(1.0 + 1e-9) * length).contains(s) {
-                issues.add(
-                    format!("{path}.{word}"),
-                    format!("is {s} m along the beam, which is {length} m long"),
-                );
-            }
+        check_reach(&foundation.between, length, "foundation", &path, issues);
+    }
+}
+
+/// Checks where something along a beam of the given length begins and ends.
+pub(super) fn check_reach(between: &[At; 2], length: f64, what: &str, path: &str, issues: &mut Issues) {
+    let ends = between.map(|at| at.arc_length(length));
+    for (s, word) in ends.iter().zip(["from", "to"]) {
+        if !(-1e-9 * length..=(1.0 + 1e-9) * length).contains(s) {
+            issues
+                .add(format!("{path}.{word}"), format!("is {s} m along the beam, which is {length} m long"));
         }
-        if ends[0] >= ends[1] {
-            issues.add_with_hint(
-                format!("{path}.to"),
-                "the foundation ends where it begins, or before",
-                "`from` must be nearer to the beam's start than `to`",
-            );
-        }
+    }
+    if ends[0] >= ends[1] {
+        issues.add_with_hint(
+            format!("{path}.to"),
+            format!("the {what} ends where it begins, or before"),
+            "`from` must be nearer to the beam's start than `to`",
+        );
     }
 }
 

@@ -7,7 +7,9 @@ use super::place;
 use crate::context::{Needed, Read, Reported};
 use crate::reader::Reader;
 use crate::tree::Value;
-use flexura_model::{Beam, BeamTheory, Curve, Distributed, End, LoadAxes, MaterialId, Profile, SectionId};
+use flexura_model::{
+    At, Beam, BeamTheory, Curve, Distributed, End, LoadAxes, MaterialId, Profile, SectionId,
+};
 
 pub(super) fn beam(reader: &Reader<'_, '_>, name: String) -> Read<Beam> {
     let material = reader.name("material");
@@ -87,6 +89,7 @@ fn one(table: &Reader<'_, '_>) -> Read<Distributed> {
     let force = table.profiles("force");
     let moment = table.profiles("moment");
     let axes = table.choice("frame");
+    let [from, to] = ["from", "to"].map(|key| table.station(key));
     let (force, moment) = (force?, moment?);
     if force.is_none() && moment.is_none() {
         return Err(table.wrong_with_hint(
@@ -99,5 +102,6 @@ fn one(table: &Reader<'_, '_>) -> Read<Distributed> {
         force: force.unwrap_or_else(none),
         moment: moment.unwrap_or_else(none),
         axes: if axes? == Some("section") { LoadAxes::Section } else { LoadAxes::Global },
+        between: [from?.unwrap_or(At::Fraction(0.0)), to?.unwrap_or(At::Fraction(1.0))],
     })
 }

@@ -407,5 +407,7 @@ pub(crate) static DISTRIBUTED: Table = table(
             "\"section\"",
             "The axes in which it is given.",
         ),
+        key("from", Shape::Station, Default("0"), "0.2", "Where along the beam it begins."),
+        key("to", Shape::Station, Default("1"), "\"80 mm\"", "Where it ends."),
     ],
 );

@@ -88,7 +88,12 @@ pub fn mechanism(draw: &Draw) -> Model {
         full,
     );
     let force = constants(along * 0.8);
-    mast.distributed.push(Distributed { force, moment: constants(across * 0.1), axes: LoadAxes::Global });
+    mast.distributed.push(Distributed {
+        force,
+        moment: constants(across * 0.1),
+        axes: LoadAxes::Global,
+        between: Distributed::EVERYWHERE,
+    });
     mast.foundation = vec![
         foundation(FoundationLaw::Linear(2.0.into()), None, [0.0, 1.0]),
         foundation(FoundationLaw::Force(law("1.5*u + 8*u^3")), Some(across.normalize()), [0.0, 1.0]),
@@ -108,7 +113,12 @@ pub fn mechanism(draw: &Draw) -> Model {
     let mut whip =
         beam("whip", 1, helix, end(stage, Some(other), JointKind::Weld), None, BeamTheory::default());
     let force = constants(across * 0.4);
-    whip.distributed.push(Distributed { force, moment: constants(along * 0.05), axes: LoadAxes::Section });
+    whip.distributed.push(Distributed {
+        force,
+        moment: constants(along * 0.05),
+        axes: LoadAxes::Section,
+        between: Distributed::EVERYWHERE,
+    });
     let aside = Some(Vector3::new(0.1, 0.8, -0.5).normalize());
     let bed = foundation(FoundationLaw::Force(law("3*sin(u)")), aside, [0.2, 0.9]);
     whip.foundation.push(Foundation { axes: LoadAxes::Section, ..bed });

@@ -62,6 +62,7 @@ fn cases() -> Vec<Case> {
         soft: !matches!(laws, LawTable::Slender(_)),
         name,
         stretch: Stretch {
+            look: crate::look::Look::default(),
             s: [0.0, LENGTH],
             piece: Piece { length: LENGTH, steps: STEPS, laws, loads, foundation: None },
             channels: Vec::new(),
@@ -145,7 +146,7 @@ fn blocks(t: &Matrix12) -> [Matrix6<f64>; 4] {
 
 fn form(case: &Case, load: f64, start: &Plain) -> Form {
     let soft = 1.3;
-    Form::new(&case.stretch, soft, (load, &case.pulls), start, &mut SegmentEnd::new())
+    Form::new(std::slice::from_ref(&case.stretch), soft, (load, &case.pulls), start, &mut SegmentEnd::new())
         .expect("a short stretch")
 }
 
