@@ -155,7 +155,11 @@ impl Equilibrium {
                 for stretch in segment {
                     let mut coarse = state;
                     let half = stretch.piece.steps.div_ceil(2);
-                    carry_through(&Stretch::new(law, span, stretch.s, half, Vec::new()), &acting, &mut coarse);
+                    carry_through(
+                        &Stretch::new(law, span, stretch.s, half, Vec::new()),
+                        &acting,
+                        &mut coarse,
+                    );
                     carry_through(stretch, &acting, &mut state);
                     let (fine, coarse) = (pose_of(&state), pose_of(&coarse));
                     let turned = log(&(fine.rotation * coarse.rotation.inverse())).norm();

@@ -71,6 +71,8 @@ pub(crate) struct BeamLaw {
     softest: f64,
     /// What that compliance counts for along the whole beam, SI; the same where it is the same everywhere.
     supple: f64,
+    /// The mean of that compliance along the beam, SI.
+    mean_soft: f64,
     /// Largest of the compliances in stretching and shear, SI.
     yielding: f64,
     /// Compliance in stretching besides that of the section, SI; zero but on the way to an equilibrium.
@@ -103,6 +105,7 @@ impl BeamLaw {
             scale: Scale { length: 1.0, force: 1.0 },
             softest: 0.0,
             supple: 0.0,
+            mean_soft: 0.0,
             yielding: 0.0,
             softening: 0.0,
             founded: Founded::new(&beam, length)?,
@@ -115,7 +118,7 @@ impl BeamLaw {
         };
         law.breaks = law.find_breaks();
         law.scan(&path)?;
-        law.supple = law.find_supple();
+        (law.supple, law.mean_soft) = law.find_supple();
         Ok(law)
     }
 
@@ -184,9 +187,10 @@ impl BeamLaw {
 
     /// The compliance by which the beam as a whole bends: ∫c w ds/∫w ds, weighted by how a moment runs along it. A tip that is
     /// thin and that carries nothing does not make a beam soft.
-    fn find_supple(&self) -> f64 {
+    /// Returns the plain mean, too.
+    fn find_supple(&self) -> (f64, f64) {
         if is_uniform(&self.section) {
-            return self.softest;
+            return (self.softest, self.softest);
         }
         let power = match (&self.beam.end, self.loaded) {
             (Some(_), _) => 0,
@@ -198,20 +202,24 @@ impl BeamLaw {
         ends.push(self.length);
         // Few breaks: parts that get shorter towards both ends of every interval.
         let halvings = if ends.len() > 12 { 1 } else { 16 };
-        let (mut sums, mut whole) = ([0.0; 3], 0.0);
+        let (mut sums, mut means, mut whole) = ([0.0; 3], [0.0; 3], 0.0);
         for pair in ends.windows(2) {
             for [a, b] in graded(pair[0], pair[1], halvings) {
                 for (node, weight) in GAUSS {
                     let s = a + (b - a) * node;
                     let c = self.law_at(s).compliance.to_matrix();
-                    let weight = weight * (b - a) * (1.0 - s / self.length).powi(power);
-                    (0..3).for_each(|i| sums[i] += weight * c[(3 + i, 3 + i)]);
-                    whole += weight;
+                    let (part, weight) = (weight * (b - a), (1.0 - s / self.length).powi(power));
+                    for i in 0..3 {
+                        sums[i] += weight * part * c[(3 + i, 3 + i)];
+                        means[i] += part * c[(3 + i, 3 + i)];
+                    }
+                    whole += weight * part;
                 }
             }
         }
-        let supple = sums.into_iter().fold(0.0, f64::max) / whole;
-        if supple > 0.0 && supple.is_finite() { supple } else { self.softest }
+        let largest = |sums: [f64; 3]| sums.into_iter().fold(0.0, f64::max);
+        let sound = |value: f64| if value > 0.0 && value.is_finite() { value } else { self.softest };
+        (sound(largest(sums) / whole), sound(largest(means) / self.length))
     }
 
     pub fn set_scale(&mut self, scale: Scale) {
@@ -445,8 +453,8 @@ impl BeamLaw {
     }
 
     /// ∫ of the compliance in bending along the beam, nondimensional.
-    pub fn supple_all_along(&self) -> f64 {
-        self.supple * self.scale.force * self.scale.length * self.length
+    pub fn soft_all_along(&self) -> f64 {
+        self.mean_soft * self.scale.force * self.scale.length * self.length
     }
 
     /// Largest of the compliances in bending and torsion, nondimensional.

@@ -20,7 +20,7 @@ pub(crate) struct Stretch {
     /// Channels of tendons along it.
     pub channels: Vec<Channel>,
     pub jumps: Vec<usize>,
-    /// What the law is like along it.
+    /// What the law is like along it, of a stretch of a mesh.
     pub look: Look,
 }
 
@@ -55,6 +55,8 @@ const SHARE: f64 = 0.03;
 /// By how much halving the steps reduces the error at least (`accuracy.rs`). Where the law is not smooth it does not, so that
 /// what is left of it then must be smaller by as much beforehand.
 const GAIN: f64 = 32.0;
+/// Part of what is allowed that may be left when all steps are halved: the errors of all stretches add up.
+const LEFT: f64 = 0.1;
 /// Stretches with more steps than this are halved, so that each part has the rates of its own.
 const MOST_AT_ONCE: usize = 4;
 /// Width, as a part of the length, of a stretch that is not halved any more.
@@ -133,7 +135,7 @@ impl Cutter<'_> {
         let [force, moment] = law.wrench_unit;
         Measure {
             wrench: [force.max(self.course.most.force), moment.max(self.course.most.moment)],
-            soft: law.supple_all_along(),
+            soft: law.soft_all_along(),
             length: self.nondimensional(self.span.s),
             push: law.foundation_stiffness(self.span.s) * self.nondimensional(self.span.s),
         }
@@ -203,13 +205,13 @@ impl Cutter<'_> {
         let middle = 0.5 * (a + b);
         let mut left = error;
         // A law without sound numbers is left to Newton, who refuses the state.
-        if error > 1e-3 * allowed / GAIN {
+        if error > 1e-2 * LEFT * allowed / GAIN {
             left = 0.0;
             for half in [[a, middle], [middle, b]] {
                 left += self.look(half).error(level, measure);
             }
         }
-        if left > allowed / GAIN {
+        if left > LEFT * allowed / GAIN {
             return false;
         }
         plan.law_error += left;
@@ -352,7 +354,7 @@ impl Stretch {
     pub fn new(law: &BeamLaw, span: &Span, s: [f64; 2], steps: usize, jumps: Vec<usize>) -> Self {
         let channels =
             span.channels.iter().filter(|c| c.holds(s)).map(|c| c.samples(law, s, steps)).collect();
-        Self { s, piece: law.piece(s[0], s[1], steps), channels, jumps, look: law.even_look(s) }
+        Self { s, piece: law.piece(s[0], s[1], steps), channels, jumps, look: Look::default() }
     }
 
     /// The same in another number of steps.
