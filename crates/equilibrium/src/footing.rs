@@ -210,13 +210,17 @@ impl Equilibrium {
         self.remesh(&counts);
     }
 
-    /// Do loads turn or stretch a beam so far that they must be a mistake? By √(F/EI) L, or (M L/EI), beyond `most`.
+    /// Do loads turn or stretch a beam so far that they must be a mistake? By ∫√(F/EI) ds, or ∫M/EI ds, beyond `most`.
     pub fn is_excessive(&self, most: f64) -> bool {
-        self.lowered.spans.iter().zip(&self.expected).any(|(span, level)| {
-            let law = &self.lowered.beams[span.beam];
-            let length = (span.s[1] - span.s[0]) / law.scale.length;
-            let phase = (level.force * law.soft()).sqrt() * length;
-            let turning = (level.moment + level.tendons) * law.soft() * length;
+        (0..self.meshes.len()).any(|index| {
+            let (mesh, expected) = (&self.meshes[index], &self.expected[index]);
+            let unit = self.lowered.beams[self.lowered.spans[index].beam].scale.length;
+            let phase = self.span_phase(index, 1.0);
+            let turned = mesh.stretches().map(|stretch| {
+                let level = expected.over(stretch.s);
+                (level.moment + level.tendons) * stretch.look.soft * (stretch.s[1] - stretch.s[0]) / unit
+            });
+            let turning: f64 = turned.sum();
             // A number that is none is no sound load either.
             !(phase <= most && turning <= most)
         })
@@ -243,8 +247,8 @@ impl Equilibrium {
 
     /// The largest force that a span carries, in EI/L² of its beam.
     pub fn largest_force(&self) -> f64 {
-        let each = self.lowered.spans.iter().zip(&self.levels);
-        each.map(|(span, level)| level.force / self.lowered.beams[span.beam].wrench_unit[0])
+        let each = self.lowered.spans.iter().zip(&self.courses);
+        each.map(|(span, course)| course.most.force / self.lowered.beams[span.beam].wrench_unit[0])
             .fold(0.0, f64::max)
     }
 
@@ -263,7 +267,11 @@ impl Equilibrium {
                 + load.follower.moment.norm()
         };
         let nodes = self.lowered.nodes.iter().flat_map(|node| &node.loads).map(|(_, load, _)| size(load));
-        let spans = self.expected.iter().map(|level| level.force + level.moment + level.tendons);
+        let spans = self
+            .expected
+            .iter()
+            .map(|course| course.most)
+            .map(|level| level.force + level.moment + level.tendons);
         let unit = self.lowered.spans.iter().map(|span| self.lowered.beams[span.beam].wrench_unit[0]);
         (nodes.sum::<f64>() + spans.sum::<f64>()) / unit.fold(f64::INFINITY, f64::min).min(1.0)
     }

@@ -247,7 +247,12 @@ impl Prepared {
     /// A load that is taken for a mistake: nothing is solved, and no mesh is made for it.
     pub(crate) fn overloaded(&self) -> Option<Outcome> {
         let excessive = self.problem.phase(1.0) > LARGEST_PHASE || self.problem.is_excessive(LARGEST_PHASE);
-        excessive.then(|| Outcome::ended(Ending::Excessive, PathWork::default()))
+        if excessive {
+            return Some(Outcome::ended(Ending::Excessive, PathWork::default()));
+        }
+        let reason = self.problem.beyond_reach()?;
+        let ended = Outcome::ended(Ending::Excessive, PathWork::default());
+        Some(Outcome { reason: Some(reason), ..ended })
     }
 
     /// From rest to the full load, then to `tolerance`.
