@@ -10,11 +10,12 @@ const SAME: f64 = 1e-5;
 /// How near to its end a stall must be to what it names, as a part of the load.
 const NEAR: f64 = 0.02;
 
-/// An output's numbers.
-fn numbers(output: &Output) -> Vec<f64> {
+/// An output's numbers; none where it has no value.
+fn numbers(output: &Option<Output>) -> Vec<f64> {
     match output {
-        Output::Number(value) => vec![*value],
-        Output::Vector(vector) => vector.to_vec(),
+        Some(Output::Number(value)) => vec![*value],
+        Some(Output::Vector(vector)) => vector.to_vec(),
+        None => Vec::new(),
     }
 }
 

@@ -168,7 +168,9 @@ impl BeamLaw {
     pub fn foundation_growth(&self) -> f64 {
         let push = self.foundation_stiffness([0.0, self.length]);
         let length = self.length / self.scale.length;
-        length * (0.25 * push * self.soft()).powf(0.25).max((push * self.yields()).sqrt())
+        // The mean of a root is at most the root of the mean.
+        let soft = self.soft_all_along() / length;
+        length * (0.25 * push * soft).powf(0.25).max((push * self.yields()).sqrt())
     }
 
     /// Stiffness at rest at `s` (m), nondimensional.

@@ -24,6 +24,17 @@ impl Equilibrium {
         if closed { SNUG } else { LOOSE }
     }
 
+    /// Cuts every span into at least this many segments, whatever the loads; for benches and tests.
+    pub fn force_segments(&mut self, count: Option<usize>) {
+        self.forced_segments = count;
+        self.rest();
+    }
+
+    /// Accuracy of the mesh while the load is raised, if better than what the solver would choose.
+    pub fn refine_path(&mut self, accuracy: f64) {
+        self.finest_path = accuracy;
+    }
+
     /// Puts the mechanism at rest: unloaded, every body where the model puts it.
     pub fn rest(&mut self) {
         self.load = 0.0;

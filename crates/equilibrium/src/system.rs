@@ -191,17 +191,6 @@ impl Equilibrium {
         &self.lowered.warnings
     }
 
-    /// Cuts every span into at least this many segments, whatever the loads; for benches and tests.
-    pub fn force_segments(&mut self, count: Option<usize>) {
-        self.forced_segments = count;
-        self.rest();
-    }
-
-    /// Accuracy of the mesh while the load is raised, if better than what the solver would choose.
-    pub fn refine_path(&mut self, accuracy: f64) {
-        self.finest_path = accuracy;
-    }
-
     /// Changes a point load. The state stays, so that a solve can start from it.
     pub fn set_point_load(&mut self, id: LoadId, force: Vector3<f64>, moment: Vector3<f64>) {
         let load = &mut self.model[id];
