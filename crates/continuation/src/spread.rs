@@ -45,20 +45,26 @@ pub fn spread<P: Problem>(
 ) -> Spread {
     let mut known = vec![path.clone().normalised(problem.system())];
     let generic = (3_usize.saturating_pow(kernel.len() as u32) - 1) / 2;
-    for push in pushes(kernel.len()) {
-        let mut across = vec![0.0; path.step.len()];
-        for (weight, direction) in push.iter().zip(kernel) {
-            across.iter_mut().zip(direction).for_each(|(a, d)| *a += weight * d);
+    for shift in SHIFTS {
+        for push in pushes(kernel.len()) {
+            let mut across = vec![0.0; path.step.len()];
+            for (weight, direction) in push.iter().zip(kernel) {
+                across.iter_mut().zip(direction).for_each(|(a, d)| *a += weight * d);
+            }
+            let across = Tangent { step: across, parameter: 0.0 }.normalised(problem.system());
+            let Some(direction) = pushed(problem, options, from, &across, shift) else { continue };
+            let system = problem.system();
+            let same =
+                |other: &Tangent| other.product(system, &direction.step, direction.parameter).abs() > SAME;
+            if !known.iter().any(same) {
+                known.push(direction);
+            }
+            if known.len() > generic + 1 {
+                return Spread::Family;
+            }
         }
-        let across = Tangent { step: across, parameter: 0.0 }.normalised(problem.system());
-        let Some(direction) = pushed(problem, options, from, &across) else { continue };
-        let system = problem.system();
-        let same = |other: &Tangent| other.product(system, &direction.step, direction.parameter).abs() > SAME;
-        if !known.iter().any(same) {
-            known.push(direction);
-        }
-        if known.len() > generic + 1 {
-            return Spread::Family;
+        if known.len() == generic + 1 {
+            break;
         }
     }
     Spread::Branches(known.split_off(1))
@@ -84,23 +90,19 @@ fn pushes(count: usize) -> Vec<Vec<f64>> {
     all
 }
 
-/// The direction of the branch to which a push leads.
+/// The direction of the branch to which a push leads with a change of the parameter.
 fn pushed<P: Problem>(
     problem: &mut P,
     options: &WalkOptions,
     from: &Point,
     across: &Tangent,
+    shift: f64,
 ) -> Option<Tangent> {
     let width = LENGTH * largest(problem.system(), across, options);
-    for part in WIDTHS {
-        for shift in SHIFTS {
-            let shift = part * shift * LENGTH * options.largest_parameter;
-            if let Some(direction) = arrived(problem, options, from, across, (part * width, shift)) {
-                return Some(direction);
-            }
-        }
-    }
-    None
+    WIDTHS.iter().find_map(|part| {
+        let shift = part * shift * LENGTH * options.largest_parameter;
+        arrived(problem, options, from, across, (part * width, shift))
+    })
 }
 
 fn arrived<P: Problem>(

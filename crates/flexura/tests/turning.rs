@@ -36,7 +36,7 @@ fn a_free_joint_reads_the_turning_that_it_was_driven_to() {
             "format = 1\n[body.b]\n[joint.j]\nkind = \"{kind}\"\nparent = \"ground\"\nchild = \"b\"\n{key}\n"
         );
         let text = text.replace('V', "[0, \"1080 deg\", 0]");
-        let held = "position = { coordinate = [0, 0, 0] }\n";
+        let held = "x = { coordinate = 0 }\ny = { coordinate = 0 }\nz = { coordinate = 0 }\n";
         let text = if kind == "free" { text + held } else { text };
         let solution = solved(&text);
         let last = solution.joints[0].coordinates.len() - 2;
@@ -49,7 +49,7 @@ fn a_free_joint_reads_the_turning_that_it_was_driven_to() {
 fn a_sprung_ball_turns_on_beyond_half_a_turn() {
     for moment in [1.0_f64, 3.0, 3.3, 4.5, 6.0, -5.0] {
         let text = format!(
-            "format = 1\n[body.b]\n[joint.j]\nkind = \"spherical\"\nparent = \"ground\"\nchild = \"b\"\nstiffness = [1, 1, 1]\n\
+            "format = 1\n[body.b]\n[joint.j]\nkind = \"spherical\"\nparent = \"ground\"\nchild = \"b\"\nstiffness = 1\n\
              effort = [0, 0, {moment}]\n"
         );
         let read = &solved(&text).joints[0].coordinates;
