@@ -24,7 +24,7 @@ const NOISE: f64 = 1e-11;
 /// Part of a null vector from which something counts as moved by it.
 const MOVED: f64 = 1e-6;
 /// Force, beside the loads and EI/L², from which forces count as growing beyond all bounds.
-const BOUNDLESS: f64 = 1e6;
+const BOUNDLESS: f64 = 1e5;
 /// Cost of one entry in the factorisation of a dense tangent, beside an integration step.
 const ENTRY: f64 = 1e-2;
 /// Unknowns that a row of a sparse tangent meets in its factorisation, about.

@@ -28,7 +28,7 @@ fn mechanism(seed: u64) -> String {
     let [left, right] = [random.between(-1.3, -0.7), random.between(0.7, 1.3)];
     let [k, l] = [random.between(5.0, 20.0), random.between(5.0, 20.0)];
     let [x, y] = [random.between(-0.3, 0.3), -random.between(0.5, 3.0)];
-    let (length, bending) = (random.between(0.5, 1.0), random.between(0.002, 0.2));
+    let (length, bending) = (random.between(0.5, 1.0), 10.0_f64.powf(random.between(-4.0, -0.7)));
     format!(
         r#"
 format = 1

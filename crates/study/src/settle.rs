@@ -162,10 +162,11 @@ fn creep(problem: &mut Equilibrium, load: f64) -> bool {
             // With a drag below what drives it away, a step would lead back to where it stands unstably.
             (least, fallen) = (force * 2.0_f64.powi(pushes), 0.0);
             strength = (force / SHORT).max(least).max(1e-6);
-        } else if way < SHORT {
+        } else {
             fallen += way;
             let least = if fallen > FALLEN { 0.0 } else { least };
-            strength = (EASED * strength).max(least);
+            let eased = if way < SHORT { EASED * strength } else { strength };
+            strength = eased.max(least);
         }
     }
     problem.set_whole_drag(0.0);

@@ -130,6 +130,19 @@ impl Way<'_> {
             if by == PathBlock::Work {
                 return Err(self.tired(load));
             }
+            let load = if by == PathBlock::Crossing {
+                // A tiny imperfection makes a bend of a branch point: short steps follow that, and long ones must not pass it.
+                let finer = self.problem.mesh_accuracy().min(CAREFUL_MESH);
+                self.problem.set_mesh_accuracy(finer);
+                match self.follow(load, &CAREFUL_PATH) {
+                    PathEnd::Complete => return Ok(()),
+                    PathEnd::Blocked { load, by: PathBlock::Work } => return Err(self.tired(load)),
+                    PathEnd::Blocked { load, .. } => load,
+                    PathEnd::Singular => load,
+                }
+            } else {
+                load
+            };
             match self.walk(load) {
                 Walked::Complete => return Ok(()),
                 Walked::Beyond(load) => from = load,
