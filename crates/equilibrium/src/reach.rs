@@ -9,7 +9,37 @@ const LARGEST_PHASE: f64 = 1e4;
 impl Equilibrium {
     /// Why the present mesh is not to be worked on: a load or a law that would want more steps than are made.
     pub fn beyond_reach(&self) -> Option<String> {
-        (0..self.meshes.len()).find_map(|span| self.span_beyond_reach(span))
+        let spans = || (0..self.meshes.len()).find_map(|span| self.span_beyond_reach(span));
+        self.node_beyond_reach().or_else(spans)
+    }
+
+    /// A force on a body that no beam, at its stiffest, could be meant to carry.
+    fn node_beyond_reach(&self) -> Option<String> {
+        let stiffest = (0..self.meshes.len()).map(|span| self.span_strength(span)).fold(0.0, f64::max);
+        let most = LARGEST_PHASE * LARGEST_PHASE * stiffest;
+        let force = |node: &crate::lower::Node| -> f64 {
+            node.loads.iter().map(|(_, load, _)| load.dead.force.norm() + load.follower.force.norm()).sum()
+        };
+        let node = self.lowered.nodes.iter().position(|node| stiffest > 0.0 && !(force(node) <= most))?;
+        Some(format!(
+            "{}: the load is more than a hundred million times what bends the stiffest beam, EI/L²; check its unit and the sections' \
+             dimensions",
+            self.node_name(node)
+        ))
+    }
+
+    /// EI/L² of a span where it is stiffest, nondimensional.
+    pub(crate) fn span_strength(&self, index: usize) -> f64 {
+        let span = &self.lowered.spans[index];
+        let law = &self.lowered.beams[span.beam];
+        let length = law.length / law.scale.length;
+        let soft = match span.is_even(law) {
+            true => law.soft(),
+            false => {
+                self.meshes[index].stretches().map(|stretch| stretch.look.soft).fold(law.soft(), f64::min)
+            }
+        };
+        1.0 / (soft * length * length)
     }
 
     /// Is a mesh cut off, so that no result on it means anything?

@@ -132,6 +132,19 @@ impl Way<'_> {
                 PathBlock::Interrupted => return Err(Ending::Interrupted { load }),
                 _ => {}
             }
+            let load = if by == PathBlock::Crossing {
+                // A tiny imperfection makes a bend of a branch point: short steps follow that, and long ones must not pass it.
+                let finer = self.problem.mesh_accuracy().min(CAREFUL_MESH);
+                self.problem.set_mesh_accuracy(finer);
+                match self.follow(load, &CAREFUL_PATH) {
+                    PathEnd::Complete => return Ok(()),
+                    PathEnd::Blocked { load, by: PathBlock::Work } => return Err(self.tired(load)),
+                    PathEnd::Blocked { load, .. } => load,
+                    PathEnd::Singular => load,
+                }
+            } else {
+                load
+            };
             match self.walk(load) {
                 Walked::Complete => return Ok(()),
                 _ if self.problem.is_interrupted() => return Err(Ending::Interrupted { load }),
