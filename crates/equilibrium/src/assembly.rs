@@ -124,7 +124,7 @@ impl Equilibrium {
 
     fn evaluate_span(&mut self, span: usize, sink: &mut Sink<'_>) -> Result<(), Breakdown> {
         let columns = if sink.matrix.is_some() { COLUMNS } else { 1.0 };
-        self.effort.0 += columns * self.meshes[span].steps() as f64;
+        self.effort.0 += columns * (self.meshes[span].steps() + self.meshes[span].segments.len()) as f64;
         let held = self.start_hold(span);
         let wrench = self.start_wrench(span);
         let head = plain(&held.target, &wrench);

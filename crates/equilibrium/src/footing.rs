@@ -24,7 +24,7 @@ const NOISE: f64 = 1e-11;
 /// Part of a null vector from which something counts as moved by it.
 const MOVED: f64 = 1e-6;
 /// Force, beside the loads and EI/L², from which forces count as growing beyond all bounds.
-const BOUNDLESS: f64 = 1e7;
+const BOUNDLESS: f64 = 1e5;
 /// Cost of one entry in the factorisation of a dense tangent, beside an integration step.
 const ENTRY: f64 = 1e-2;
 /// Unknowns that a row of a sparse tangent meets in its factorisation, about.
@@ -210,6 +210,13 @@ impl Equilibrium {
 
     /// Do loads turn or stretch a beam so far that they must be a mistake? By √(F/EI) L, or (M L/EI), beyond `most`.
     pub fn is_excessive(&self, most: f64) -> bool {
+        let stiffest = self.lowered.spans.iter().map(|span| self.lowered.beams[span.beam].wrench_unit[0]);
+        let stiffest = stiffest.fold(0.0, f64::max);
+        let on_nodes = self.lowered.nodes.iter().flat_map(|node| &node.loads);
+        let on_nodes = on_nodes.map(|(_, load, _)| load.dead.force.norm() + load.follower.force.norm());
+        if stiffest > 0.0 && on_nodes.fold(0.0, f64::max) > most * most * stiffest {
+            return true;
+        }
         self.lowered.spans.iter().zip(&self.expected).any(|(span, level)| {
             let law = &self.lowered.beams[span.beam];
             let length = (span.s[1] - span.s[0]) / law.scale.length;
@@ -249,7 +256,16 @@ impl Equilibrium {
     /// Have forces at the present state grown far beyond the loads?
     pub fn is_boundless(&mut self) -> bool {
         // What is known of forces may be that of a state that was refused.
-        self.residual().is_ok() && self.largest_force() > BOUNDLESS * (1.0 + self.given_force())
+        if self.residual().is_err() {
+            return false;
+        }
+        let most = BOUNDLESS * (1.0 + self.given_force());
+        self.lowered.spans.iter().zip(&self.levels).any(|(span, level)| {
+            let law = &self.lowered.beams[span.beam];
+            let strain = level.force * law.yields();
+            // A thin wire may carry that much, as long as it does not stretch out of all proportion.
+            level.force / law.wrench_unit[0] > most && (strain == 0.0 || strain > 0.5)
+        })
     }
 
     /// The sum of all loads, in EI/L² of the softest beam: what forces may be expected to be.

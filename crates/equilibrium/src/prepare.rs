@@ -10,6 +10,8 @@ use flexura_mechanics::joint::MAX_CONFIGURATION;
 use flexura_nonlinear::{BLOCK, Chain};
 use flexura_spatial::Vector3;
 
+/// What a step costs to be made anew, beside carrying a state along it.
+const REMESHED: f64 = 10.0;
 /// Accuracy of the mesh on the way to the full load where only positions depend on it.
 const LOOSE: f64 = 1e-4;
 /// The same where a closure error turns into force.
@@ -96,6 +98,7 @@ impl Equilibrium {
 
     pub(crate) fn remesh(&mut self, counts: &[usize]) {
         let accuracy = self.accuracy;
+        self.effort.0 += self.total_steps() as f64 * REMESHED;
         self.meshes = self
             .lowered
             .spans

@@ -16,7 +16,7 @@ use flexura_nonlinear::{NewtonEnd, NewtonOptions, PathBlock, PathEnd, PathOption
 /// Parts of the load under which a mechanism is let go, one after another until it stands.
 const LOADS: [f64; 3] = [1e-3, 3e-2, 1.0];
 /// Most steps of a creeping motion, and the way (L) after which it counts as going away for good.
-const CREEPS: usize = 150;
+const CREEPS: usize = 250;
 const AWAY: f64 = 200.0;
 /// Largest way of a step, in L or radians; the way below which the drag is taken back, and by how much.
 const LONGEST: f64 = 0.5;
@@ -26,7 +26,9 @@ const EASED: f64 = 0.2;
 const NEAR: f64 = 0.05;
 /// By how much what stands unstably is pushed, in L or radians, and how often.
 const PUSH: f64 = 1e-2;
-const PUSHES: usize = 6;
+const PUSHES: i32 = 4;
+/// Way (L or radians) after which it has left where it stood unstably.
+const FALLEN: f64 = 0.3;
 /// Compliance in stretching that is lent: EI/L² stretches a beam by this part of its length.
 const SOFT: f64 = 1e-3;
 /// Steps after which a path that has not come to the first of these counts as slow.
@@ -127,6 +129,7 @@ fn creep(problem: &mut Equilibrium, load: f64) -> bool {
     let most = 1e12 * strength;
     let mut kept = Vec::new();
     let mut pushes = 0;
+    let (mut least, mut fallen) = (0.0, 0.0);
     let mut stood = false;
     for _ in 0..CREEPS {
         if problem.is_exhausted() || problem.gone() > AWAY {
@@ -146,7 +149,7 @@ fn creep(problem: &mut Equilibrium, load: f64) -> bool {
             continue;
         }
         problem.renew();
-        if way < NEAR && stand(problem) {
+        if way < NEAR && (pushes == 0 || fallen > FALLEN) && stand(problem) {
             if is_stable(problem) {
                 stood = true;
                 break;
@@ -156,9 +159,14 @@ fn creep(problem: &mut Equilibrium, load: f64) -> bool {
                 break;
             }
             problem.nudge(PUSH);
-            strength = (force / SHORT).max(1e-6);
-        } else if way < SHORT {
-            strength *= EASED;
+            // With a drag below what drives it away, a step would lead back to where it stands unstably.
+            (least, fallen) = (force * 2.0_f64.powi(pushes), 0.0);
+            strength = (force / SHORT).max(least).max(1e-6);
+        } else {
+            fallen += way;
+            let least = if fallen > FALLEN { 0.0 } else { least };
+            let eased = if way < SHORT { EASED * strength } else { strength };
+            strength = eased.max(least);
         }
     }
     problem.set_whole_drag(0.0);
@@ -233,7 +241,7 @@ fn stiffened(problem: &mut Equilibrium) -> bool {
             }
             problem.renew();
             if next == 0.0 {
-                return is_stable(problem);
+                return !matches!(problem.stability(), Ok(Stability::Unstable(1..)));
             }
             compliance = next;
             part = (part * part).max(1e-3);

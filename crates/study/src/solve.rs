@@ -7,7 +7,7 @@ use crate::settle;
 use crate::way::Way;
 use flexura_equilibrium::{Equilibrium, Finish, Footing, ProblemError, Stability};
 use flexura_model::{BeamPoint, LoadId, Model, Output, ProbeTarget, Quantity};
-use flexura_nonlinear::{Breakdown, NewtonEnd, PathOptions, PathWork, System};
+use flexura_nonlinear::{Breakdown, NewtonEnd, NewtonOptions, PathOptions, PathWork, System, converge};
 use flexura_solution::{Solution, Status};
 use flexura_spatial::Vector3;
 
@@ -99,6 +99,9 @@ const NEAR: f64 = 0.5;
 /// The same for a result that a user names as the start.
 const NEAR_RESULT: f64 = 2.0;
 
+/// Part of the load before the full one at which a branch point is looked for that the path has not seen.
+const LATE: f64 = 1e-4;
+
 /// Samples of all beams together, and of each at least.
 const MOST_SAMPLES: usize = 30_000;
 const FEWEST_SAMPLES: usize = 5;
@@ -109,8 +112,8 @@ pub(crate) const CRITICAL: &str = "the equilibrium is critical: a direction give
 /// √(F/EI) L beyond which a load is taken for a mistake.
 const LARGEST_PHASE: f64 = 1e4;
 /// Work that a solve may do, in integration steps of one state: for every model, and for each span of it.
-const MOST_EFFORT: f64 = 2.5e6;
-const EFFORT_OF_SPAN: f64 = 2.5e5;
+const MOST_EFFORT: f64 = 4e6;
+const EFFORT_OF_SPAN: f64 = 5e5;
 
 impl Prepared {
     /// Prepares a model and checks that it is held.
@@ -323,6 +326,18 @@ impl Prepared {
         }
     }
 
+    /// A branch point so near the full load that only the last corrections, on a finer mesh, have passed it.
+    fn warn_of_a_late_crossing(&self, solution: &mut Solution) {
+        let mut before = self.problem.clone();
+        before.set_load(1.0 - LATE);
+        let newton = NewtonOptions { tolerance: 1e-9, iterations: 20, nearest: f64::INFINITY };
+        let arrived = matches!(converge(&mut before, &newton), NewtonEnd::Converged { .. });
+        let fewer = |count: usize| solution.unstable_directions.is_some_and(|now| count < now);
+        if arrived && matches!(before.stability(), Ok(Stability::Unstable(count)) if fewer(count)) {
+            solution.warnings.push(passes(1.0));
+        }
+    }
+
     /// The present state as a solution.
     pub fn solution(&mut self, outcome: &Outcome, samples: usize) -> Solution {
         let mut solution = self.problem.solution(samples);
@@ -330,14 +345,14 @@ impl Prepared {
         solution.reason = outcome.reason.clone();
         solution.error_estimate = outcome.error_estimate;
         if let Some(load) = outcome.path.crossing {
-            solution.warnings.push(format!(
-                "the path from rest passes a branch point at {:.4} % of the load, and the equilibrium found lies beyond it; \
-                 `flexura trace` shows what branches off there",
-                100.0 * load
-            ));
+            solution.warnings.push(passes(load));
         }
         if outcome.status == Status::Converged {
             self.judge(&mut solution);
+            if outcome.path.crossing.is_none() && solution.unstable_directions.is_some_and(|count| count > 0)
+            {
+                self.warn_of_a_late_crossing(&mut solution);
+            }
         } else {
             solution.stability_reason = Some("this is no equilibrium under the full load".to_string());
         }
@@ -349,6 +364,14 @@ impl Prepared {
         solution.work.residuals = counts.residuals;
         solution
     }
+}
+
+fn passes(load: f64) -> String {
+    format!(
+        "the path from rest passes a branch point at {:.4} % of the load, and the equilibrium found lies beyond it; \
+         `flexura trace` shows what branches off there",
+        100.0 * load
+    )
 }
 
 /// Bodies and places on beams whose small motions the outputs or targets ask for.

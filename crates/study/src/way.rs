@@ -130,6 +130,20 @@ impl Way<'_> {
             if by == PathBlock::Work {
                 return Err(self.tired(load));
             }
+            if by == PathBlock::Crossing && start == 0.0 {
+                // A tiny imperfection makes a bend of a branch point: short steps follow that, and long ones must not pass it.
+                let mut here = self.problem.clone();
+                self.problem.rest();
+                let options = PathOptions { leaves_crossings: false, ..self.options };
+                match self.follow(0.0, &options) {
+                    PathEnd::Complete => return Ok(()),
+                    PathEnd::Blocked { load, by: PathBlock::Work } => return Err(self.tired(load)),
+                    _ => {
+                        here.set_counts(self.problem.counts());
+                        *self.problem = here;
+                    }
+                }
+            }
             match self.walk(load) {
                 Walked::Complete => return Ok(()),
                 Walked::Beyond(load) => from = load,
