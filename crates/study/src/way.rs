@@ -132,19 +132,20 @@ impl Way<'_> {
                 PathBlock::Interrupted => return Err(Ending::Interrupted { load }),
                 _ => {}
             }
-            let load = if by == PathBlock::Crossing {
+            if by == PathBlock::Crossing && start == 0.0 {
                 // A tiny imperfection makes a bend of a branch point: short steps follow that, and long ones must not pass it.
-                let finer = self.problem.mesh_accuracy().min(CAREFUL_MESH);
-                self.problem.set_mesh_accuracy(finer);
-                match self.follow(load, &CAREFUL_PATH) {
+                let mut here = self.problem.clone();
+                self.problem.rest();
+                let options = PathOptions { leaves_crossings: false, ..self.options };
+                match self.follow(0.0, &options) {
                     PathEnd::Complete => return Ok(()),
                     PathEnd::Blocked { load, by: PathBlock::Work } => return Err(self.tired(load)),
-                    PathEnd::Blocked { load, .. } => load,
-                    PathEnd::Singular => load,
+                    _ => {
+                        here.set_counts(self.problem.counts());
+                        *self.problem = here;
+                    }
                 }
-            } else {
-                load
-            };
+            }
             match self.walk(load) {
                 Walked::Complete => return Ok(()),
                 _ if self.problem.is_interrupted() => return Err(Ending::Interrupted { load }),
