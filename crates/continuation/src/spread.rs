@@ -2,7 +2,8 @@
 //!
 //! How they leave is decided by as many equations as there are directions. These are not made; the path is pushed along many directions
 //! of the kernel instead, and from each of them Newton's method goes in the plane across it to the branch that is nearest: every branch
-//! that leaves at an angle below a right one to the push crosses that plane.
+//! that leaves at an angle below a right one to the push crosses that plane. Branches on which all directions take part draw Newton's
+//! method most; those on which some stay out may be missed.
 
 use crate::corrector::between;
 use crate::problem::{Point, Problem, Tangent, slope};

@@ -40,6 +40,22 @@ fn a_sweep_is_one_solve_a_row() {
     assert!((energy - document["energy"].as_f64().unwrap()).abs() < 1e-8 * energy);
 }
 
+/// Euler's clamped and free column, in EI/L²: straight above π²/4 = 2.47, where it is unstable in one direction, and above 9π²/4 = 22.2 in
+/// two.
+#[test]
+fn every_row_says_whether_it_is_stable() {
+    let output = run(&["sweep", "euler_clamped_free.toml", "--vary", "push=1,4,30"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let rows = rows(&stdout(&output));
+    for (row, stable, count) in [(1, "true", "0"), (2, "false", "1"), (3, "false", "2")] {
+        assert_eq!(cell(&rows, row, "stable"), stable, "{row}");
+        assert_eq!(cell(&rows, row, "unstable_directions"), count, "{row}");
+    }
+    assert!(rows[2].last().unwrap().contains("unstable in 1 direction"), "{:?}", rows[2]);
+    let solved = run(&["solve", "euler_clamped_free.toml", "--set", "push=4"]);
+    assert!(stderr(&solved).contains("unstable in 1 direction"), "{}", stderr(&solved));
+}
+
 #[test]
 fn the_numbers_do_not_depend_on_how_many_threads_there_are() {
     let sweep = |jobs: &str| {
@@ -120,6 +136,8 @@ fn a_sample_that_fails_is_a_row_and_not_the_end() {
             "tip.z [m]",
             "slope [rad]",
             "root",
+            "stable",
+            "unstable_directions",
             "energy [J]",
             "error_estimate",
             "reason",
@@ -127,7 +145,7 @@ fn a_sample_that_fails_is_a_row_and_not_the_end() {
         ]
     );
     assert_eq!(rows[2][..9], ["-50.0", "1.0", "input_error", "", "", "", "", "", ""]);
-    assert_eq!(rows[2][10..].join(","), "\"beam.leaf.length: must be positive, is -0.05\",");
+    assert_eq!(rows[2][12..].join(","), "\"beam.leaf.length: must be positive, is -0.05\",");
     assert_eq!(rows[3][2], "converged");
 
     let document: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -19,7 +19,7 @@ fn study(keys: &str) -> String {
 /// As many points as are allowed lead a small part of the way, however short the steps.
 #[test]
 fn a_path_that_gets_nowhere_is_not_converged() {
-    for steps in [200_000_000_u64, 1_000_000_000, 4_000_000_000] {
+    for steps in [200_000_000, 1_000_000_000] {
         let text = study(&format!("parameter = \"push\"\nrange = [0, 1]\nsteps = {steps}\nmost_points = 40"));
         let found = run(&text, &[], 1e-8);
         assert_eq!(found.trace.status, Status::IterationLimit, "{steps}: {:?}", found.trace.reason);
