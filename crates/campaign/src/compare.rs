@@ -102,30 +102,44 @@ pub fn with_trace(document: &Document, trace: &Ran) -> Vec<Finding> {
         }
         return findings;
     }
+    let path = Path { folds, branches, reached, through, why: why.to_owned() };
+    if let Some((kind, detail)) = cause(document, &path) {
+        find(kind, detail);
+    }
+    findings
+}
+
+/// The trace's first branch.
+struct Path {
+    folds: Vec<f64>,
+    branches: Vec<f64>,
+    reached: f64,
+    through: bool,
+    why: String,
+}
+
+/// Is what a solve that did not converge says of the cause true of the path?
+fn cause(document: &Document, path: &Path) -> Option<(Kind, String)> {
+    let Path { folds, branches, reached, through, why } = path;
     let at = document.load_fraction.unwrap_or(1.0);
     let said = document.reason.clone().unwrap_or_default();
     let status = &document.status;
-    if status == "accuracy_limit" {
-        find(Kind::Accuracy, said);
-        return findings;
-    }
     let near = |places: &[f64]| places.iter().any(|place| (place - at).abs() < NEAR);
-    if through && folds.is_empty() {
-        find(Kind::WrongCause, format!("{status} at {at:.4}; the trace goes through: {said}"));
-    } else if said.contains("fold") && !near(&folds) {
-        find(
-            Kind::WrongCause,
-            format!(
-                "{status} at {at:.4} says a fold; the trace has folds at {folds:.4?} and ends at {reached:.4}: {why}"
-            ),
-        );
-    } else if said.contains("branch point") && !said.contains("fold") && !near(&branches) {
-        find(
-            Kind::WrongCause,
-            format!("{status} at {at:.4} says a branch point; the trace has them at {branches:.4?}"),
-        );
+    let fold = said.contains("fold");
+    if status == "accuracy_limit" {
+        return Some((Kind::Accuracy, said));
     }
-    findings
+    let detail = if *through && folds.is_empty() {
+        format!("{status} at {at:.4}; the trace goes through: {said}")
+    } else if fold && !near(folds) {
+        let has = format!("the trace has folds at {folds:.4?} and ends at {reached:.4}");
+        format!("{status} at {at:.4} says a fold; {has}: {why}")
+    } else if said.contains("branch point") && !fold && !near(branches) {
+        format!("{status} at {at:.4} says a branch point; the trace has them at {branches:.4?}")
+    } else {
+        return None;
+    };
+    Some((Kind::WrongCause, detail))
 }
 
 fn output_of(point: &Value, name: &str) -> Option<Vec<f64>> {

@@ -29,6 +29,30 @@ Besides, `cargo test` holds that
   and ordered differently (`crates/verification/tests/invariance.rs`);
 - every tangent is exact: the whole system's, on a model with one of everything, to 2e-10 against differences of
   order six, as far as these go (`crates/equilibrium/src/tests.rs`), and those of each law where the law is.
+
+## A campaign
+
+Cases are chosen by people. `cargo xtask campaign --seed S --count N` draws N mechanisms from the seeds S, S + 1, ...
+and damages as many files; the same seed always makes the same files. A mechanism has beams of every section and rest
+shape, joints and holds of every kind, rolling and contact joints, springs and ligaments over spheres and cylinders,
+cables, tendons, foundations, couplings, concentric tubes, loops, loads with jumps and flanks, drives, and lengths
+from 0.1 mm to 10 m with moduli from 0.1 MPa to 1 TPa, so that forces lie tens of decades apart. `check`, `solve`,
+`trace`, `sweep`, `buckle` and `run` each read it as a child process, which may take 10 s of the processor and 1 GiB.
+Every converged answer is verified from its document and the model's own numbers (`crates/campaign/src/verify`):
+
+- every beam is integrated again from station to station by the pair of Dormand and Prince (*J. Comput. Appl. Math.* 6
+  (1980) 19), with all that acts in between, and so are concentric tubes;
+- every body and the whole mechanism are in balance, joints and ends of beams fit, drives are met, efforts obey the
+  laws of their coordinates;
+- lengths and laws of springs, their courses over obstacles, cables and couplings are worked out again;
+- contacts lie on both surfaces with opposite normals, travels and slides add up, nothing acts across a smooth
+  contact;
+- the strain energy is the integral of what is stored.
+
+What differs by more than 1e-5 is wrong; what differs by more than ten times the estimate and more than 1e-8 makes the
+estimate dishonest. `solve`, `sweep` and the end of a trace must agree, no trace may have a fold before a converged
+answer, and a stall that says a fold must lie at a fold of the trace. Every finding is written to `target/campaign`
+with its seed. A short campaign is a test (`crates/flexura-cli/tests/campaign.rs`).
 ";
 
 /// No difference is printed as less: below lies round-off, which is not the same on every machine.

@@ -17,22 +17,9 @@ impl Draft {
         } else {
             format!("{{ kind = \"ellipse\", semi_axes = [{}, {}] }}", number(a), number(b))
         };
-        // The parent's frame lies so that the two touch at `foot`.
-        let big = read_back(size * self.random.between(0.4, 2.0));
-        let (ground, down, start, rise, concave) = match self.random.below(4) {
-            0 | 1 => ("{ kind = \"line\", normal = [0, 1] }".to_owned(), 0.0, "[\"-90 deg\", 0]", b, false),
-            2 => {
-                let circle = format!("{{ kind = \"circle\", radius = {} }}", number(big));
-                (circle, -big, "[\"-90 deg\", \"90 deg\"]", b, false)
-            }
-            _ => {
-                // The hole is wider than the body everywhere.
-                let hole = read_back(2.5 * (a * a / b).max(b * b / a).max(a).max(b));
-                let circle = format!("{{ kind = \"circle\", radius = {} }}", number(hole));
-                (circle, hole, "[\"-90 deg\", \"-90 deg\"]", b, true)
-            }
-        };
-        let body = self.placed_body([foot[0], foot[1] + rise, foot[2]]);
+        let (ground, down, start) = self.rolled_on([a, b]);
+        let concave = down > 0.0;
+        let body = self.placed_body([foot[0], foot[1] + b, foot[2]]);
         let frame = [foot[0], foot[1] + down, foot[2]];
         let name = self.name("j");
         let by = self.random.pick(&["angle", "angle", "turning", "arc"]);
@@ -64,6 +51,22 @@ impl Draft {
         self.line(&text);
         self.outputs.push(format!("{name}_roll = \"joint.{name}.contact.roll\""));
         self.outputs.push(format!("{name}_point = \"joint.{name}.contact.point\""));
+    }
+
+    /// What an ellipse rolls on: a curve, where its frame is above the first contact, and the parameters of that. Above the
+    /// contact lies the middle of a hole.
+    fn rolled_on(&mut self, [a, b]: [f64; 2]) -> (String, f64, &'static str) {
+        let big = read_back(self.size * self.random.between(0.4, 2.0));
+        let circle = |radius: f64| format!("{{ kind = \"circle\", radius = {} }}", number(radius));
+        match self.random.below(4) {
+            0 | 1 => ("{ kind = \"line\", normal = [0, 1] }".to_owned(), 0.0, "[\"-90 deg\", 0]"),
+            2 => (circle(big), -big, "[\"-90 deg\", \"90 deg\"]"),
+            _ => {
+                // The hole is wider than the body everywhere.
+                let hole = read_back(2.5 * (a * a / b).max(b * b / a).max(a).max(b));
+                (circle(hole), hole, "[\"-90 deg\", \"-90 deg\"]")
+            }
+        }
     }
 
     fn slide(&mut self, radius: f64) -> String {

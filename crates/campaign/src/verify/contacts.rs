@@ -91,6 +91,11 @@ impl Touching<'_> {
                 say(&format!("travel on the {name}"), (travel - wanted.abs()).abs() / unit.max(travel));
             }
         }
+        self.slide(rolling, contact, say);
+    }
+
+    /// The slide that belongs to the coordinate, and what the coordinate counts.
+    fn slide(&self, rolling: &Rolling, contact: &ContactDocument, say: &mut impl FnMut(&str, f64)) {
         let q = self.told.coordinates.first().copied().unwrap_or(0.0);
         let slide = match &rolling.slide {
             Slide::None => Some(0.0),
@@ -116,7 +121,7 @@ impl Touching<'_> {
         }
         if angle < 3.0
             && self.joint.law.kind == JointKind::Rolling(RollingCoordinate::Angle)
-            && start.is_some()
+            && rolling.start.is_some()
         {
             self.angle(rolling, q, say);
         }

@@ -104,28 +104,35 @@ impl Held<'_> {
                 let pose = about(&axis, q.value, second * x.value + across * y.value);
                 (vec![x, y, q], pose)
             }
-            JointKind::Spherical | JointKind::Free => {
-                let free = self.law.kind == JointKind::Free;
-                let first = if free { 3 } else { 0 };
-                let told = self.coordinates.and_then(|q| q.get(first..first + 3)).map(<[f64]>::to_vec);
-                let driven = || -> Option<Vec<f64>> {
-                    let laws = self.law.coordinates.get(first..first + 3)?;
-                    laws.iter().map(|law| driven_to(law)).collect()
-                };
-                let told = told.or_else(driven);
-                let v = told.map_or_else(|| log(&self.pose.rotation), |q| V::new(q[0], q[1], q[2]));
-                // δX turns by J(v) δv in F's axes, J the left Jacobian.
-                let effort = left_jacobian(&v).transpose() * m;
-                let mut all = Vec::new();
-                if free {
-                    let linear = (0..3).map(|i| Along { value: p[i], effort: f[i], is_angle: false });
-                    all.extend(linear);
-                }
-                all.extend((0..3).map(|i| Along { value: v[i], effort: effort[i], is_angle: true }));
-                (all, Pose::new(exp(&v), if free { p } else { V::zeros() }))
-            }
+            JointKind::Spherical | JointKind::Free => self.ball(),
             JointKind::Rolling(_) | JointKind::Contact | JointKind::SurfaceRolling => return None,
         })
+    }
+
+    /// The rotation vector of a spherical or free joint, with the position of the latter.
+    fn ball(&self) -> (Vec<Along>, Pose) {
+        let free = self.law.kind == JointKind::Free;
+        let first = if free { 3 } else { 0 };
+        let told = self.coordinates.and_then(|q| q.get(first..first + 3)).map(<[f64]>::to_vec);
+        let driven = || -> Option<Vec<f64>> {
+            let laws = self.law.coordinates.get(first..first + 3)?;
+            laws.iter().map(|law| driven_to(law)).collect()
+        };
+        let told = told.or_else(driven);
+        let v = told.map_or_else(|| log(&self.pose.rotation), |q| V::new(q[0], q[1], q[2]));
+        // δX turns by J(v) δv in F's axes, J the left Jacobian.
+        let effort = left_jacobian(&v).transpose() * self.wrench.moment;
+        let mut all = Vec::new();
+        if free {
+            let linear = (0..3).map(|i| Along {
+                value: self.pose.position[i],
+                effort: self.wrench.force[i],
+                is_angle: false,
+            });
+            all.extend(linear);
+        }
+        all.extend((0..3).map(|i| Along { value: v[i], effort: effort[i], is_angle: true }));
+        (all, Pose::new(exp(&v), if free { self.pose.position } else { V::zeros() }))
     }
 
     /// Closure, drives and efforts.

@@ -161,7 +161,7 @@ fn holds(answer: &Answer, beam: usize, start: &Wrench, end: &Wrench, checks: &mu
         let placement = hold.placement.or_else(|| match word {
             "start" => Some(Pose::identity()),
             _ => {
-                let rest = rod.home(answer, 0)? * rod.shape.pose(rod.length);
+                let rest = rod.home(answer, 0)? * rod.far_end();
                 Some(answer.at_rest(&hold.mount, 0)?.inverse() * rest)
             }
         });

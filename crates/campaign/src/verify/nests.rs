@@ -16,6 +16,7 @@ const MOST: usize = 4;
 /// p, q, F, M, turns, torques.
 const N: usize = 13 + 2 * MOST;
 
+/// One tube: EI, GJ, rest curvature, where its curved part begins, where it ends.
 struct Member {
     bending: f64,
     torsion: f64,
@@ -24,27 +25,14 @@ struct Member {
     reach: f64,
 }
 
+/// The tubes from station to station, and at their ends.
 pub fn checks(
     answer: &Answer,
     nest: &Tubes,
     told: &TubesDocument,
     checks: &mut Vec<Check>,
 ) -> Result<(), String> {
-    let mut members = Vec::new();
-    for tube in &nest.tubes {
-        let theory = BeamTheory { shear: false, extension: false };
-        let material = tube.material.map(|id| &answer.model[id]);
-        let whole = tube.straight + tube.curved;
-        let c = section::compliance(&answer.model[tube.section], material, theory, 0.0, whole)
-            .ok_or("a tube has no stiffness")?;
-        members.push(Member {
-            bending: 1.0 / c[(4, 4)],
-            torsion: 1.0 / c[(3, 3)],
-            curvature: tube.curvature,
-            curved: tube.straight + tube.translation,
-            reach: tube.reach(),
-        });
-    }
+    let members = members(answer, nest)?;
     let length = members[0].reach;
     let unit = members.iter().map(|member| member.bending).fold(f64::INFINITY, f64::min) / length;
     let largest = told.moment.iter().map(|m| V::from(*m).norm()).fold(0.0, f64::max);
@@ -61,19 +49,7 @@ pub fn checks(
             _ => moment,
         };
     }
-    let state = |i: usize| {
-        let mut y = [0.0; N];
-        let (p, q, f, m) = (told.position[i], told.rotation[i], told.force[i], told.moment[i]);
-        y[..3].copy_from_slice(&p);
-        y[3..7].copy_from_slice(&q);
-        y[7..10].copy_from_slice(&f);
-        y[10..13].copy_from_slice(&m);
-        for k in 0..members.len() {
-            y[13 + k] = told.angles[k].get(i).copied().unwrap_or(0.0);
-            y[13 + MOST + k] = told.torques[k].get(i).copied().unwrap_or(0.0);
-        }
-        y
-    };
+    let state = |i: usize| state(told, members.len(), i);
     let mut worst = 0.0_f64;
     for i in 1..told.s.len() {
         let ends = [told.s[i - 1], told.s[i]];
@@ -95,6 +71,40 @@ pub fn checks(
     checks.push(Check { what: format!("second integration of tubes.{}", nest.name), difference: worst });
     ends(answer, nest, told, &members, [force, moment], checks);
     Ok(())
+}
+
+fn members(answer: &Answer, nest: &Tubes) -> Result<Vec<Member>, String> {
+    let mut members = Vec::new();
+    for tube in &nest.tubes {
+        let theory = BeamTheory { shear: false, extension: false };
+        let material = tube.material.map(|id| &answer.model[id]);
+        let whole = tube.straight + tube.curved;
+        let c = section::compliance(&answer.model[tube.section], material, theory, 0.0, whole)
+            .ok_or("a tube has no stiffness")?;
+        members.push(Member {
+            bending: 1.0 / c[(4, 4)],
+            torsion: 1.0 / c[(3, 3)],
+            curvature: tube.curvature,
+            curved: tube.straight + tube.translation,
+            reach: tube.reach(),
+        });
+    }
+    Ok(members)
+}
+
+/// The numbers at one station.
+fn state(told: &TubesDocument, tubes: usize, i: usize) -> [f64; N] {
+    let mut y = [0.0; N];
+    let (p, q, f, m) = (told.position[i], told.rotation[i], told.force[i], told.moment[i]);
+    y[..3].copy_from_slice(&p);
+    y[3..7].copy_from_slice(&q);
+    y[7..10].copy_from_slice(&f);
+    y[10..13].copy_from_slice(&m);
+    for k in 0..tubes {
+        y[13 + k] = told.angles[k].get(i).copied().unwrap_or(0.0);
+        y[13 + MOST + k] = told.torques[k].get(i).copied().unwrap_or(0.0);
+    }
+    y
 }
 
 fn rates(members: &[Member], s: f64, y: &[f64; N]) -> [f64; N] {

@@ -11,7 +11,7 @@ use super::answer::{Answer, Station, V};
 use super::dormand::integrate;
 use super::section;
 use flexura::geometry::RestShape;
-use flexura::model::{Beam, CableLaw, FoundationLaw, Guide, LoadAxes, Model, Profile};
+use flexura::model::{Beam, CableLaw, Curve, FoundationLaw, Guide, LoadAxes, Model, Profile};
 use flexura::spatial::{Pose, Quaternion, UnitQuaternion, Wrench, hat};
 use nalgebra::{Matrix6, Vector6};
 
@@ -111,7 +111,45 @@ impl<'a> Rod<'a> {
             return Some(answer.at_rest(&start.mount, depth)? * start.placement.unwrap_or(Pose::identity()));
         }
         let end = self.beam.end.as_ref()?;
-        Some(answer.at_rest(&end.mount, depth)? * end.placement? * self.shape.pose(self.length).inverse())
+        Some(answer.at_rest(&end.mount, depth)? * end.placement? * self.far_end().inverse())
+    }
+
+    /// The pose of its end in that of its start where nothing is loaded. Of a beam that is given by its curvatures it is
+    /// integrated here.
+    pub fn far_end(&self) -> Pose {
+        let Curve::Curvature { curvature, length } = &self.beam.curve else {
+            return self.shape.pose(self.length);
+        };
+        let rate = |s: f64, y: &[f64; 7]| {
+            let k = V::from_iterator(curvature.iter().map(|profile| profile.value(s, *length)));
+            let q = Quaternion::new(y[3], y[4], y[5], y[6]);
+            let slope = UnitQuaternion::from_quaternion(q) * V::x();
+            let turn = q * Quaternion::from_imag(k) * 0.5;
+            [slope.x, slope.y, slope.z, turn.w, turn.i, turn.j, turn.k]
+        };
+        let scale = [*length, *length, *length, 1.0, 1.0, 1.0, 1.0];
+        let mut y = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+        // In parts, so that no jump hides between two stages of a long step.
+        let parts = 64;
+        for i in 0..parts {
+            let ends = [i, i + 1].map(|i| length * f64::from(i) / f64::from(parts));
+            match integrate(rate, ends, y, &scale, TOLERANCE) {
+                Ok(next) => y = next,
+                Err(_) => return self.shape.pose(self.length),
+            }
+        }
+        let rotation = UnitQuaternion::from_quaternion(Quaternion::new(y[3], y[4], y[5], y[6]));
+        Pose::new(rotation, V::new(y[0], y[1], y[2]))
+    }
+
+    /// Rest curvatures at `s`.
+    fn rest_curvature(&self, s: f64) -> V {
+        match &self.beam.curve {
+            Curve::Curvature { curvature, length } => {
+                V::from_iterator(curvature.iter().map(|profile| profile.value(s, *length)))
+            }
+            _ => self.shape.curvature(s),
+        }
     }
 
     fn compliance(&self, s: f64) -> Option<Matrix6<f64>> {
@@ -125,7 +163,7 @@ impl<'a> Rod<'a> {
     /// Strains of the beam (ν, k) that carries `own` in its section's axes.
     fn strain(&self, s: f64, own: &Vector6<f64>) -> Option<(Matrix6<f64>, Vector6<f64>)> {
         let c = self.compliance(s)?;
-        let k0 = self.shape.curvature(s);
+        let k0 = self.rest_curvature(s);
         Some((c, Vector6::new(1.0, 0.0, 0.0, k0.x, k0.y, k0.z) + c * own))
     }
 
@@ -263,7 +301,7 @@ impl<'a> Rod<'a> {
         let (position, force) = (V::new(y[0], y[1], y[2]), V::new(y[7], y[8], y[9]));
         let total = in_section(&rotation, &Wrench::new(force, V::new(y[10], y[11], y[12])));
         let Some((own, strain, lengths)) = self.own(s, &total) else { return [f64::NAN; N] };
-        let k0 = self.shape.curvature(s);
+        let k0 = self.rest_curvature(s);
         let relative = strain - Vector6::new(1.0, 0.0, 0.0, k0.x, k0.y, k0.z);
         let slope = rotation * V::new(strain[0], strain[1], strain[2]);
         let turn = quaternion * Quaternion::from_imag(V::new(strain[3], strain[4], strain[5])) * 0.5;
