@@ -145,18 +145,21 @@ impl Cutter<'_> {
     fn plan(&mut self, places: &[f64]) -> Plan {
         let measure = self.measure();
         let mut plan = Plan::default();
+        let mut steps = 0;
         for pair in places.windows(2) {
-            let s = [pair[0], pair[1]];
-            if self.span.is_even(self.law) {
+            let (s, known) = ([pair[0], pair[1]], plan.parts.len());
+            // However many segments there are, the span has no more steps than are made, and one for each.
+            let left = MOST_STEPS.saturating_sub(steps).max(1);
+            if self.span.is_even(self.law) || left == 1 {
                 let look = self.law.even_look(s);
                 let level = self.course.over(s);
                 let steps = level.steps(&look, self.winding(s), self.nondimensional(s), self.accuracy);
-                plan.parts.push(Part { s, steps, look });
+                plan.parts.push(Part { s, steps: steps.min(left), look });
             } else {
                 self.halve(s, &measure, &mut plan);
             }
+            steps += plan.parts[known..].iter().map(|part| part.steps).sum::<usize>();
         }
-        let steps: usize = plan.parts.iter().map(|part| part.steps).sum();
         plan.is_overfull |= steps >= MOST_STEPS;
         plan
     }

@@ -116,7 +116,8 @@ impl Prepared {
             None => 1.0,
         };
         let mut width = PART * begin;
-        let mut failed = f64::INFINITY;
+        // A load may be named small, a motion has a size of its own.
+        let mut failed = if self.is_moved(family, study, width) { begin } else { f64::INFINITY };
         for _ in 0..TRIES {
             let mut pencil = match self.pencil(family, study, parts, width) {
                 Ok(pencil) => pencil,
@@ -153,6 +154,36 @@ impl Prepared {
             width = if wanted < failed { wanted } else { (width * failed).sqrt() };
         }
         Ok(None)
+    }
+
+    /// Does a change by `by` move something that is driven, or change lengths or angles?
+    fn is_moved(&mut self, family: &mut dyn Family, study: &BuckleStudy, by: f64) -> bool {
+        let parameters = &self.problem.model().parameters;
+        if study.parameter.is_some_and(|p| matches!(parameters[p].unit.as_str(), "m" | "rad")) {
+            return true;
+        }
+        let (mut kept, mut moved) = (Vec::new(), Vec::new());
+        self.problem.store(&mut kept);
+        match study.parameter {
+            Some(parameter) => {
+                // Where there is no such model the difference will say so.
+                let Ok(model) = family.model(&self.values_with(parameter, study.at + by)) else {
+                    return false;
+                };
+                let Ok(law) = self.problem.neighbour(&model) else { return false };
+                let own = self.problem.exchange(law);
+                self.problem.store(&mut moved);
+                self.problem.exchange(own);
+            }
+            None => {
+                let load = self.problem.load_fraction();
+                self.problem.set_load(load + by);
+                self.problem.store(&mut moved);
+                self.problem.set_load(load);
+            }
+        }
+        self.problem.restore(&kept);
+        moved != kept
     }
 
     /// Cut into `parts` stretches a smooth part of a beam at least, by a difference of the given width.
