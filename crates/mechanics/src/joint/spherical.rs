@@ -20,7 +20,8 @@ fn stored(v: &Vector3<f64>) -> Configuration {
     [v.x, v.y, v.z, 0.0, 0.0, 0.0, 0.0]
 }
 
-/// The rotation vector of a rotation that is next to another: of all (θ + 2πk) a.
+/// The rotation vector of a rotation that is next to another: of all (θ + 2πk) a, those whose length is next to the last one's, so that as
+/// many turns are counted, one each way about a; of these two the nearer.
 fn next_to(rotation: &UnitQuaternion<f64>, last: &Vector3<f64>) -> Vector3<f64> {
     let shortest = log(rotation);
     let (angle, reached) = (shortest.norm(), last.norm());
@@ -30,8 +31,11 @@ fn next_to(rotation: &UnitQuaternion<f64>, last: &Vector3<f64>) -> Vector3<f64> 
         return if turns > 0.0 { last * (turns * TAU / reached) } else { shortest };
     }
     let axis = shortest / angle;
-    let turns = ((last.dot(&axis) - angle) / TAU).round();
-    if turns == 0.0 { shortest } else { axis * (angle + turns * TAU) }
+    let turned = [reached, -reached].map(|length| angle + TAU * ((length - angle) / TAU).round());
+    let apart = |turned: f64| (axis * turned - last).norm();
+    let [one, other] = turned;
+    let turned = if apart(one) <= apart(other) { one } else { other };
+    if turned == angle { shortest } else { axis * turned }
 }
 
 /// c(θ) and c'(θ)/θ, by their series where the closed forms cancel.
