@@ -7,6 +7,9 @@ use serde_json::Value;
 
 /// Differences of outputs, relative to the largest of their kind, that are none.
 const SAME: f64 = 1e-5;
+/// The least EI/L² and EI/L that are drawn, N and N·m: where all that is carried is less, it is round-off.
+const LEAST_FORCE: f64 = 1e-13;
+const LEAST_MOMENT: f64 = 1e-17;
 /// How near to its end a stall must be to what it names, as a part of the load.
 const NEAR: f64 = 0.02;
 
@@ -47,8 +50,8 @@ fn differing(document: &Document, other: impl Fn(&str) -> Option<Vec<f64>>) -> O
         let unit = match kind(name).as_str() {
             "turned" | "angle" | "first" | "second" => 1.0,
             "coordinate" => length.min(1.0).max(size("coordinate")),
-            "pull" | "force" => force.max(size(&kind(name))),
-            "root" => moment.max(force * length),
+            "pull" | "force" => force.max(size(&kind(name))).max(LEAST_FORCE),
+            "root" => moment.max(force * length).max(LEAST_MOMENT),
             "energy" => size("energy"),
             ending => length.max(size(ending)),
         };
