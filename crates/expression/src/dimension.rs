@@ -114,14 +114,18 @@ impl Dimension {
         Some(Dimension { exponents })
     }
 
-    /// Its SI unit as text that can be read back: "N", "kg/m^3", "" for a plain number.
+    /// Its SI unit as text that can be read back: "N", "kg/m^3", "" for a plain number. A radian is told only where
+    /// it belongs to a quantity that people know by it, as an angle or N*m/rad; kg*rad is kg.
     pub fn unit(&self) -> String {
-        if let Some((_, _, unit)) = NAMED.iter().find(|(dimension, ..)| dimension == self) {
+        let exact = NAMED.iter().find(|(dimension, ..)| dimension == self);
+        if let Some((_, _, unit)) =
+            exact.or_else(|| NAMED.iter().find(|(dimension, ..)| dimension.agrees(self)))
+        {
             return (*unit).to_string();
         }
         let mut over = String::new();
         let mut under = String::new();
-        for (exponent, symbol) in self.exponents.iter().zip(["m", "kg", "s", "K", "rad"]) {
+        for (exponent, symbol) in self.exponents.iter().zip(["m", "kg", "s", "K"]) {
             let side = match exponent.signum() {
                 0 => continue,
                 1 => &mut over,

@@ -55,16 +55,34 @@ pub(crate) fn tokens(text: &str, range: Range<usize>) -> Result<Vec<Spanned>, Ex
         } else {
             let shown: String = first.escape_default().collect();
             let shown = if first.is_control() { shown } else { first.to_string() };
-            return Err(ExpressionError::new(
+            let error = ExpressionError::new(
                 format!("`{shown}` has no meaning in an expression"),
                 at..at + first.len_utf8(),
-            ));
+            );
+            return Err(match instead(first) {
+                Some(hint) => error.with_hint(hint),
+                None => error,
+            });
         };
         list.push(Spanned { token, span: at..at + length });
         at += length;
     }
     list.push(Spanned { token: Token::End, span: end..end });
     Ok(list)
+}
+
+/// What to write in the place of a sign that people use elsewhere.
+fn instead(sign: char) -> Option<&'static str> {
+    match sign {
+        '⁻' | '⁺' | '⁰'..='⁹' | '¹' | '²' | '³' => {
+            Some("a power is written with `^`: `mm^2`, `s^-1`")
+        }
+        '÷' | '∕' | '⁄' => Some("a quotient is written with `/`"),
+        '√' => Some("a root is written `sqrt(...)`"),
+        '=' => Some("an expression is one side only"),
+        '{' | '}' => Some("brackets of an expression are round; `{...}` is for the names of repeated tables"),
+        _ => None,
+    }
 }
 
 /// A number at the beginning of `rest`. An exponent needs a digit, so that `2 em` stays a number and a name.

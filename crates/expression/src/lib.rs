@@ -20,6 +20,7 @@ mod lower;
 mod nearest;
 mod parser;
 mod program;
+mod spelling;
 mod split;
 mod unit;
 
@@ -29,6 +30,7 @@ pub use expression::{Expression, Reference, Segment};
 pub use function::{Formula, Function};
 pub use lower::{Binding, Lowered};
 pub use nearest::nearest;
+pub use spelling::respelled;
 pub use split::split;
 pub use unit::{Unit, UnitEntry, unit, unit_table};
 
@@ -57,6 +59,32 @@ pub fn reserved(name: &str) -> Option<&'static str> {
         return Some("a word of the expressions");
     }
     None
+}
+
+/// A name that a parameter could bear in place of a reserved one; a good one says what it is.
+pub fn free_name(reserved_name: &str) -> String {
+    let word = match reserved_name {
+        "m" | "kg" | "lb" => "mass",
+        "g" => "gravity",
+        "s" => "path",
+        "N" => "count",
+        "K" | "kN" => "stiffness",
+        "J" => "inertia",
+        "W" => "weight",
+        "turn" | "rev" => "turning",
+        "min" => "least",
+        "max" => "greatest",
+        "in" => "inlet",
+        "day" | "hour" => "duration",
+        "e" => "eccentricity",
+        "deg" | "rad" => "angle",
+        "mm" | "cm" | "km" => "length",
+        "Pa" | "MPa" | "GPa" | "bar" => "pressure",
+        "sign" => "sense",
+        "%" | "°" => "part",
+        _ => return format!("{reserved_name}_1"),
+    };
+    word.to_string()
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 
 use crate::expression::{Binary, CONSTANTS, Call, Item, Node};
 use crate::lexer::{Spanned, Token, tokens};
+use crate::spelling::respelled;
 use crate::unit::symbols;
 use crate::{Dimension, Expression, ExpressionError, Kind, Reference, Segment, Unit, nearest, unit};
 use std::ops::Range;
@@ -44,10 +45,11 @@ fn parse_range(
         Token::Sign(')' | ']') => {
             Err(ExpressionError::new(format!("`{}` closes nothing", &text[rest.span.clone()]), rest.span))
         }
-        _ => Err(ExpressionError::new(
-            format!("expected an operator (+ - * / ^), found `{}`", &text[rest.span.clone()]),
-            rest.span,
-        )),
+        _ => {
+            let message = format!("expected an operator (+ - * / ^), found `{}`", &text[rest.span.clone()]);
+            let part = rest.span.clone();
+            Err(parser.with_decimal_point(ExpressionError::new(message, rest.span), part))
+        }
     }
 }
 
@@ -160,7 +162,31 @@ impl<'a> Parser<'a> {
             return Err(ExpressionError::new(format!("`{open}` is not closed"), opened.clone()));
         }
         let text = &self.text[found.clone()];
-        Err(ExpressionError::new(format!("expected `{sign}` or an operator, found `{text}`"), found))
+        let message = format!("expected `{sign}` or an operator, found `{text}`");
+        let part = found.clone();
+        Err(self.with_decimal_point(ExpressionError::new(message, found), part))
+    }
+
+    /// The error with a hint, if a number with a decimal comma stands in that part of the text.
+    fn with_decimal_point(&self, error: ExpressionError, part: Range<usize>) -> ExpressionError {
+        let comma = self.tokens.windows(3).find_map(|three| match three {
+            [
+                Spanned { token: Token::Number(_), span: whole },
+                Spanned { token: Token::Sign(','), span: comma },
+                Spanned { token: Token::Number(_), span: digits },
+            ] if part.start <= comma.start
+                && comma.end <= part.end
+                && whole.end == comma.start
+                && comma.end == digits.start =>
+            {
+                Some(format!("{}.{}", &self.text[whole.clone()], &self.text[digits.clone()]))
+            }
+            _ => None,
+        });
+        match comma {
+            Some(written) => error.with_hint(format!("a number has a point, not a comma: write `{written}`")),
+            None => error,
+        }
     }
 
     fn name(&mut self, span: Range<usize>, depth: usize) -> Result<Range<usize>, ExpressionError> {
@@ -268,10 +294,9 @@ impl<'a> Parser<'a> {
         if count < least || count > most {
             let wanted = if least == most { format!("{least}") } else { format!("{least} to {most}") };
             let plural = if wanted == "1" { "" } else { "s" };
-            return Err(ExpressionError::new(
-                format!("`{name}` takes {wanted} argument{plural}, found {count}"),
-                whole,
-            ));
+            let message = format!("`{name}` takes {wanted} argument{plural}, found {count}");
+            let error = ExpressionError::new(message, whole.clone());
+            return Err(if count > most { self.with_decimal_point(error, whole) } else { error });
         }
         self.push(Node::Call(entry.call, count), whole.clone());
         Ok(whole)
@@ -302,7 +327,10 @@ impl<'a> Parser<'a> {
             let under = self.is_sign(0, '/');
             let joined = under || self.is_sign(0, '*');
             let skip = usize::from(joined);
-            let Some(next) = self.unit_at(skip) else { break };
+            let Some(next) = self.unit_at(skip) else {
+                self.refuse_raised(skip)?;
+                break;
+            };
             if !joined && (divided || !found) {
                 let span = self.peek().span.clone();
                 return Err(ExpressionError::new("a unit behind `/` must be joined by `*` or `/`", span));
@@ -321,6 +349,17 @@ impl<'a> Parser<'a> {
         let value = if exact { value / inverse } else { value * whole.factor };
         self.push(Node::Number(value, Kind::Of(whole.dimension)), span.clone());
         Ok(span)
+    }
+
+    /// A name behind a unit that ends with a raised digit is no parameter but a unit in another spelling.
+    fn refuse_raised(&mut self, count: usize) -> Result<(), ExpressionError> {
+        let token = self.ahead(count);
+        let raised = token.token == Token::Name && self.text[token.span.clone()].ends_with(['²', '³', '⁴']);
+        if !raised {
+            return Ok(());
+        }
+        self.next += count;
+        Err(self.no_unit())
     }
 
     /// The unit whose symbol is the token `count` ahead, unless that is the variable, a call or a path.
@@ -388,9 +427,12 @@ impl<'a> Parser<'a> {
             "degC" | "C" | "degF" => "temperatures are in K".to_string(),
             "t" => "write `tonne`".to_string(),
             "mi" => "write it in km".to_string(),
-            _ => match nearest(name, all.iter().map(String::as_str)) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("to multiply, write `{number}*{name}`"),
+            _ => match respelled(name) {
+                Some(written) => format!("did you mean `{written}`?"),
+                None => match nearest(name, all.iter().map(String::as_str)) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("to multiply, write `{number}*{name}`"),
+                },
             },
         };
         ExpressionError::new(format!("there is no unit `{name}`"), span).with_hint(hint)

@@ -368,3 +368,89 @@ fn a_moment_times_an_angular_velocity_is_a_power() {
     assert_eq!(power.unit(), "W");
     assert!(power.agrees(&Dimension::FORCE.times(&Dimension::VELOCITY)));
 }
+
+#[test]
+fn units_in_other_spellings_are_told_as_they_are_written_here() {
+    for (word, written) in [
+        ("Nm", Some("N*m")),
+        ("Nmm", Some("N*mm")),
+        ("kNm", Some("kN*m")),
+        ("mNm", Some("mN*m")),
+        ("lbfin", Some("lbf*in")),
+        ("Ns", Some("N*s")),
+        ("kgm2", Some("kg*m^2")),
+        ("gcm²", Some("g*cm^2")),
+        ("mm2", Some("mm^2")),
+        ("mm²", Some("mm^2")),
+        ("m³", Some("m^3")),
+        ("mm4", Some("mm^4")),
+        ("s2", Some("s^2")),
+        ("millimetres", Some("mm")),
+        ("Newtons", Some("N")),
+        ("kilonewton", Some("kN")),
+        ("degrees", Some("deg")),
+        ("inches", Some("in")),
+        ("seconds", Some("s")),
+        ("mm", None),
+        ("mmm", None),
+        ("lbs", None),
+        ("push", None),
+        ("m1", None),
+        ("", None),
+    ] {
+        assert_eq!(respelled(word).as_deref(), written, "{word}");
+        // What is suggested can be read.
+        if let Some(written) = written {
+            let kind = value_kind(&format!("1 {written}"));
+            assert!(matches!(kind, Kind::Of(_)), "{written}");
+        }
+    }
+}
+
+fn value_kind(text: &str) -> Kind {
+    evaluate(text).unwrap_or_else(|error| panic!("{text}: {error:?}")).kind
+}
+
+#[test]
+fn a_comma_between_digits_is_told_to_be_a_point() {
+    let hint = "a number has a point, not a comma: write";
+    assert_eq!(message("0,5 N"), format!("1..2: expected an operator (+ - * / ^), found `,`; {hint} `0.5`"));
+    assert_eq!(message("2*(1,25)"), format!("4..5: expected `)` or an operator, found `,`; {hint} `1.25`"));
+    assert_eq!(message("sin(0,5)"), format!("0..8: `sin` takes 1 argument, found 2; {hint} `0.5`"));
+    // Arguments are divided by commas, and a comma behind a number need not be meant for a point.
+    assert_eq!(value("max(0, 5)"), 5.0);
+    assert_eq!(message("1 N, 2"), "3..4: expected an operator (+ - * / ^), found `,`");
+}
+
+#[test]
+fn radians_are_no_dimension_of_what_people_read() {
+    for (text, unit) in [
+        ("1 kg*rad", "kg"),
+        ("1600 kg/m^3*1 m^3*150 deg", "kg"),
+        ("2 N*m*rad", "N*m"),
+        ("1 rad^2", ""),
+        ("1 N/rad^2", "N"),
+        ("3 m^5*rad", "m^5"),
+        // Where people know the quantity by its radian, it stays.
+        ("3 N*m/rad", "N*m/rad"),
+        ("3 rad/s", "rad/s"),
+        ("30 deg", "rad"),
+        ("3 mm/rad", "m/rad"),
+    ] {
+        assert_eq!(value_kind(text).dimension().unit(), unit, "{text}");
+    }
+}
+
+#[test]
+fn a_name_to_take_is_free() {
+    let symbols = unit_table().iter().map(|entry| entry.symbol);
+    let prefixed = ["mm", "kg", "kN", "MPa", "mg"];
+    let calls = function_table().map(|(name, _)| name);
+    let constants = constant_table().map(|(name, _)| name);
+    for name in symbols.chain(prefixed).chain(calls).chain(constants) {
+        let free = free_name(name);
+        assert_eq!(reserved(&free), None, "{name}: {free}");
+        let starts = free.chars().next().is_some_and(|c| c.is_alphabetic() || c == '_');
+        assert!(starts && free.chars().all(|c| c.is_alphanumeric() || c == '_'), "{name}: {free}");
+    }
+}
