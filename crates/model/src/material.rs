@@ -3,7 +3,7 @@
 use crate::Profile;
 use nalgebra::Matrix6;
 
-/// A linear elastic, isotropic material.
+/// A linear elastic material. Along the fibres of a composite E and G are independent of each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Its name, unique among materials.
@@ -16,6 +16,15 @@ pub struct Material {
     pub density: Option<f64>,
     /// Yield strength, Pa; enables the safety factor.
     pub yield_strength: Option<f64>,
+}
+
+impl Material {
+    /// Do E and G go together as in an isotropic material, with Poisson's ratio above -1 and at most at 0.5?
+    pub fn is_isotropic(&self) -> bool {
+        let ratio = self.young / (2.0 * self.shear) - 1.0;
+        // G = E/3 of an incompressible material is no exact double.
+        ratio > -1.0 && ratio <= 0.5 + 1e-9
+    }
 }
 
 /// The cross section of a beam. e2 runs along the width, e3 along the height.

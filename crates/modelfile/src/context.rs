@@ -6,6 +6,7 @@ use crate::report::{MOST, Problem, Report, Texts};
 use crate::tree::{Node, Value};
 use flexura_expression::{
     Binding, Expression, ExpressionError, Kind, Lowered, Quantity, Reference, function_table, nearest,
+    respelled,
 };
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -46,6 +47,19 @@ pub(crate) struct Context<'a> {
     pub is_overridden: bool,
     /// How often the same place was wrong in the copies of a table, by its byte range.
     alike: RefCell<BTreeMap<(usize, usize), usize>>,
+    /// Names of parameters that cannot be told from units, constants and functions; each was recorded.
+    pub misnamed: BTreeSet<String>,
+    /// What can be read but is hardly meant: place, path, message, hint. Only so many are kept.
+    doubts: RefCell<Vec<Doubt>>,
+}
+
+/// Something that can be read but is hardly meant.
+#[derive(Clone, Debug)]
+pub(crate) struct Doubt {
+    pub span: Range<usize>,
+    pub path: String,
+    pub message: String,
+    pub hint: String,
 }
 
 impl<'a> Context<'a> {
@@ -62,6 +76,8 @@ impl<'a> Context<'a> {
             copies: None,
             is_overridden: false,
             alike: RefCell::new(BTreeMap::new()),
+            misnamed: BTreeSet::new(),
+            doubts: RefCell::new(Vec::new()),
         }
     }
 
@@ -82,6 +98,8 @@ impl<'a> Context<'a> {
             count: self.count,
             used: self.used,
             alike: self.alike,
+            misnamed: self.misnamed,
+            doubts: self.doubts,
         }
     }
 
@@ -136,6 +154,23 @@ impl<'a> Context<'a> {
             problem.message.push_str(&format!(" (for {values})"));
         }
         problem
+    }
+
+    /// Notes what can be read but is hardly meant, once for each place.
+    pub(crate) fn doubt(&self, doubt: Doubt) {
+        let mut doubts = self.doubts.borrow_mut();
+        if doubts.len() < 4 * MOST && doubts.iter().all(|other| other.span != doubt.span) {
+            doubts.push(doubt);
+        }
+    }
+
+    /// What was noted, as warnings.
+    pub(crate) fn doubts(&self) -> Vec<Problem> {
+        let warning = |doubt: &Doubt| {
+            let problem = self.texts.problem(doubt.span.clone(), &doubt.path, doubt.message.clone());
+            problem.hint(doubt.hint.clone()).warning()
+        };
+        self.doubts.borrow().iter().map(warning).collect()
     }
 
     /// Records a problem of the model file.
@@ -200,6 +235,11 @@ impl<'a> Context<'a> {
         self.used.borrow().contains(&(word, name.to_string()))
     }
 
+    /// Forgets what was referred to so far.
+    pub(crate) fn forget_uses(&self) {
+        self.used.borrow_mut().clear();
+    }
+
     pub(crate) fn mark_used(&self, word: &'static str, name: &str) {
         self.used.borrow_mut().insert((word, name.to_string()));
     }
@@ -259,14 +299,19 @@ impl<'a> Context<'a> {
                     return Err(ExpressionError::new(String::new(), reference.span.clone()));
                 }
                 let names: Vec<&str> = self.parameters.keys().map(String::as_str).collect();
-                Err(ExpressionError::new(format!("there is no parameter `{name}`"), reference.span.clone())
-                    .with_hint(suggest(name, &names, "parameter")))
+                Err(no_parameter(name, &names, reference.span.clone()))
             }
         }
     }
 
     /// Records what is wrong with an expression that stands in `node`.
     pub(crate) fn expression_error(&self, node: &Node, path: &str, error: &ExpressionError) -> Reported {
+        // Of a parameter that bears the name of a unit it was told where it is declared.
+        if let Value::Text(text) = &node.value
+            && text.get(error.span.clone()).is_some_and(|name| self.misnamed.contains(name))
+        {
+            return Reported;
+        }
         let span = self.inner(node, &error.span);
         let mut problem = self.problem(&span, path, error.message.clone());
         problem.hint = error.hint.clone();
@@ -396,6 +441,19 @@ fn names(root: &Node) -> BTreeMap<Named, BTreeMap<&str, usize>> {
 fn is_call(text: &str) -> bool {
     function_table()
         .any(|(name, _)| text.strip_prefix(name).is_some_and(|rest| rest.trim_start().starts_with('(')))
+}
+
+/// A name that no parameter bears; it may be a unit in another spelling, as in `N/mm2`.
+pub(crate) fn no_parameter(name: &str, names: &[&str], span: Range<usize>) -> ExpressionError {
+    match respelled(name) {
+        Some(written) => ExpressionError::new(format!("there is no parameter and no unit `{name}`"), span)
+            .with_hint(format!("did you mean `{written}`?")),
+        None => ExpressionError::new(format!("there is no parameter `{name}`"), span).with_hint(suggest(
+            name,
+            names,
+            "parameter",
+        )),
+    }
 }
 
 /// "did you mean ...", or what there is.

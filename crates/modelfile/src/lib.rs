@@ -40,6 +40,7 @@ mod reference;
 mod repeat;
 mod report;
 mod schema;
+mod syntax;
 mod tree;
 mod typed;
 
@@ -92,11 +93,9 @@ impl Document {
         }
         let (table, errors) = DeTable::parse_recoverable(&source.text);
         if !errors.is_empty() {
-            let problems = errors.iter().map(|error| {
-                let span = error.span().unwrap_or(0..0);
-                at(span, "", format!("this is no valid TOML: {}", error.message()))
-            });
-            return Err(Report::input(problems.take(10).collect()));
+            let errors: Vec<_> =
+                errors.iter().map(|error| (error.span().unwrap_or(0..0), error.message())).collect();
+            return Err(Report::input(syntax::problems(&source, &errors)));
         }
         let root = Node { span: table.span(), value: Value::Table(tree::entries(table.get_ref())) };
         match root.get("format") {
@@ -144,12 +143,35 @@ impl Document {
         })
     }
 
-    /// What looks unintended although the model can be made: things that nothing uses.
+    /// What looks unintended although the model can be made: things that nothing uses, angles of many turns without a
+    /// unit, and what [`Model::doubts`] finds.
     pub fn warnings(&self) -> Vec<Problem> {
         self.build(&[], None, |model, context| match model {
-            Some(_) => build::unused(&context),
+            Some(model) => build::warnings(&context, &model),
             None => Vec::new(),
         })
+    }
+
+    /// Which of the parameters, in the order of the file, the model depends on with these overrides: those that something
+    /// other than a parameter refers to, and those by which these are written. Empty where there is no model.
+    pub fn parameters_that_matter(&self, overrides: &[(String, String)]) -> Vec<bool> {
+        let mut context = Context::new(&self.texts, &self.folder, &self.root);
+        build::parameters(&mut context, overrides);
+        context.is_overridden = !overrides.is_empty();
+        context.forget_uses();
+        let direct = |context: &Context<'_>| -> Vec<bool> {
+            let names = self.parameter_names();
+            names.iter().map(|name| context.is_used("parameter", name)).collect()
+        };
+        let used = match repeat::expand(&context) {
+            Err(Reported) => return Vec::new(),
+            Ok(None) => build::model(&context, None).map(|_| direct(&context)),
+            Ok(Some(expanded)) => {
+                let context = context.over(&expanded);
+                build::model(&context, None).map(|_| direct(&context))
+            }
+        };
+        used.map_or_else(Vec::new, |used| parameters::closure(&self.root, overrides, used))
     }
 
     /// Builds the model and hands it on with what was found on the way.

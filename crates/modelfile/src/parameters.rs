@@ -1,9 +1,9 @@
 //! Parameters: named numbers that may refer to each other in any order, and be overridden.
 
-use crate::context::{Context, Parameters, suggest};
+use crate::context::{Context, Parameters, no_parameter, suggest};
 use crate::report::{Problem, Source};
 use crate::tree::{Entry, Node, Value};
-use flexura_expression::{Expression, ExpressionError, Kind, Quantity, reserved};
+use flexura_expression::{Expression, ExpressionError, Kind, Quantity, free_name, reserved};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -61,6 +61,39 @@ fn guesses<'a>(root: &'a Node) -> Vec<Declared<'a>> {
     entries.iter().filter_map(guess).collect()
 }
 
+/// The parameters that matter: those that are used, and those to which their texts refer, by the file or overrides.
+pub(crate) fn closure(root: &Node, overrides: &[(String, String)], used: Vec<bool>) -> Vec<bool> {
+    let entries = declared(root);
+    let positions: BTreeMap<&str, usize> =
+        entries.iter().enumerate().map(|(i, entry)| (entry.name, i)).collect();
+    let guesses: BTreeMap<&str, &Node> = guesses(root).iter().map(|guess| (guess.name, guess.node)).collect();
+    let set: BTreeMap<&str, &str> =
+        overrides.iter().map(|(name, text)| (name.trim(), text.as_str())).collect();
+    let mut matter = used;
+    let mut open: Vec<usize> = (0..matter.len()).filter(|i| matter[*i]).collect();
+    while let Some(position) = open.pop() {
+        let entry = &entries[position];
+        let written = |node: &'_ Node| match &node.value {
+            Value::Text(text) => Some(text.clone()),
+            _ => None,
+        };
+        let texts = [
+            written(entry.node),
+            guesses.get(entry.name).and_then(|node| written(node)),
+            set.get(entry.name).map(ToString::to_string),
+        ];
+        for expression in texts.iter().flatten().filter_map(|text| Expression::parse(text).ok()) {
+            for needed in expression.references().iter().filter_map(|reference| reference.name()) {
+                if let Some(needed) = positions.get(needed).filter(|needed| !matter[**needed]) {
+                    matter[*needed] = true;
+                    open.push(*needed);
+                }
+            }
+        }
+    }
+    matter
+}
+
 /// Evaluates all parameters, first as declared, then with guesses and overrides. What is wrong is recorded.
 pub(crate) fn evaluate(context: &mut Context<'_>, overrides: &[(String, String)]) {
     let root = context.root;
@@ -78,7 +111,12 @@ pub(crate) fn evaluate(context: &mut Context<'_>, overrides: &[(String, String)]
             );
         } else if let Some(what) = reserved(&entry.key) {
             let message = format!("`{}` cannot be the name of a parameter: it is {what}", entry.key);
-            context.wrong(&entry.key_span, &path, message);
+            let names = std::iter::once(free_name(&entry.key))
+                .chain((1..=entries.len()).map(|i| format!("{}_{i}", entry.key)));
+            let free = names.into_iter().find(|free| !entries.iter().any(|other| other.name == free));
+            let hint = format!("take another name, such as `{}`", free.unwrap_or_default());
+            context.wrong_with_hint(&entry.key_span, &path, message, hint);
+            context.misnamed.insert(entry.key.clone());
         }
     }
     let declared = solve(context, entries, &BTreeMap::new(), &BTreeMap::new(), None);
@@ -299,8 +337,7 @@ fn value(
                 }
                 let name = &text[reference.span.clone()];
                 let names: Vec<&str> = names.iter().map(|entry| entry.name).collect();
-                Err(ExpressionError::new(format!("there is no parameter `{name}`"), reference.span.clone())
-                    .with_hint(suggest(name, &names, "parameter")))
+                Err(no_parameter(name, &names, reference.span.clone()))
             }
         }
     });

@@ -121,7 +121,8 @@ impl Problem {
             span: start..end,
             path: path.to_string(),
             value,
-            message: message.into(),
+            // An empty name would be read as nothing.
+            message: message.into().replace("``", "of an empty name"),
             hint: None,
             source: Some(source.clone()),
         }

@@ -113,9 +113,11 @@ fn positive(what: &'static str, profile: &Profile, s: f64, length: f64) -> Resul
     }
 }
 
-/// Poisson's ratio ν = E/2G - 1 of an isotropic material.
+/// Poisson's ratio ν = E/2G - 1 of an isotropic material. Where E and G belong to none, as along the fibres of a
+/// composite, they say nothing of it, and zero stands for it: the shear coefficients are then those without it, 5/6 of
+/// a rectangle.
 pub(super) fn poisson(material: &Material) -> f64 {
-    0.5 * material.young / material.shear - 1.0
+    if material.is_isotropic() { 0.5 * material.young / material.shear - 1.0 } else { 0.0 }
 }
 
 /// The geometric properties at arc length `s` of a beam of the given length; None for stiffness sections.

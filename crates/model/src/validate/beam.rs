@@ -41,7 +41,7 @@ impl Model {
     pub(super) fn check_beam(&self, beam: &Beam, issues: &mut Issues) {
         let path = format!("beam.{}", beam.name);
         let length = check_curve(&beam.curve, &path, issues);
-        check_frame(&beam.frame, &format!("{path}.frame"), issues);
+        check_frame(beam, &format!("{path}.frame"), issues);
         let material = beam.material.and_then(|id| self.materials.get(id.0));
         if beam.material.is_some() && material.is_none() {
             issues.add(format!("{path}.material"), "refers to a material that does not exist");
@@ -68,6 +68,16 @@ impl Model {
                             section.name
                         ),
                         "give the section GA2 and GA3",
+                    );
+                }
+                if section.plane_strain && !direct && material.is_some_and(|m| !m.is_isotropic()) {
+                    issues.add_with_hint(
+                        format!("section.{}.plane_strain", section.name),
+                        format!(
+                            "needs Poisson's ratio, which the moduli of beam `{}`'s material do not give",
+                            beam.name
+                        ),
+                        "leave `plane_strain` out, and give the material the modulus of a wide strip",
                     );
                 }
                 if let Some(length) = length {
@@ -123,13 +133,21 @@ pub(super) fn check_curve(curve: &Curve, beam: &str, issues: &mut Issues) -> Opt
             issues.positive(format!("{beam}.length"), *length);
         }
         Curve::Arc { radius, angle } => {
-            issues.positive(format!("{path}.radius"), *radius);
-            issues.positive(format!("{path}.angle"), *angle);
+            check_bent(*radius, &format!("{path}.radius"), "an arc", issues);
+            check_bent(*angle, &format!("{path}.angle"), "an arc", issues);
         }
         Curve::Helix { radius, pitch, turns } => {
-            issues.positive(format!("{path}.radius"), *radius);
+            check_bent(*radius, &format!("{path}.radius"), "a helix", issues);
             issues.finite(format!("{path}.pitch"), *pitch);
-            issues.positive(format!("{path}.turns"), *turns);
+            if *turns < 0.0 && turns.is_finite() {
+                issues.add_with_hint(
+                    format!("{path}.turns"),
+                    format!("must be positive, is {turns}"),
+                    "a left-handed helix has a negative pitch",
+                );
+            } else {
+                issues.positive(format!("{path}.turns"), *turns);
+            }
         }
         Curve::Parametric { position, range } => {
             let [from, to] = *range;
@@ -185,14 +203,71 @@ pub(super) fn check_curve(curve: &Curve, beam: &str, issues: &mut Issues) -> Opt
     if issues.0.len() == before { known_length(curve) } else { None }
 }
 
-fn check_frame(frame: &SectionFrame, path: &str, issues: &mut Issues) {
+/// A radius or an angle, whose sign would be the side to which the curve bends.
+fn check_bent(value: f64, path: &str, what: &str, issues: &mut Issues) {
+    if value < 0.0 && value.is_finite() {
+        issues.add_with_hint(
+            path,
+            format!("must be positive, is {value}: {what} bends towards +e2"),
+            "to bend it the other way, turn the beam's start half round: \
+             `rotation = { axis = [1, 0, 0], angle = \"180 deg\" }`",
+        );
+    } else {
+        issues.positive(path, value);
+    }
+}
+
+/// Does the rest shape lie on a straight line?
+fn is_straight(curve: &Curve) -> bool {
+    match curve {
+        Curve::Straight { .. } => true,
+        Curve::Points { points } => match points.as_slice() {
+            [first, middle @ .., last] => {
+                let along = last - first;
+                let off = |point: &Vector3<f64>| (point - first).cross(&along).norm();
+                middle.iter().all(|point| off(point) <= 1e-12 * along.norm_squared())
+            }
+            _ => true,
+        },
+        Curve::Arc { .. } | Curve::Helix { .. } | Curve::Parametric { .. } | Curve::Curvature { .. } => false,
+    }
+}
+
+/// A frame that would change nothing: the start frame is that of the beam's start, whichever way the section points there.
+fn check_frame_acts(beam: &Beam, path: &str, issues: &mut Issues) {
+    let idle = match &beam.frame {
+        SectionFrame::Natural => false,
+        _ if matches!(beam.curve, Curve::Curvature { .. }) => {
+            issues.add_with_hint(
+                path,
+                "changes nothing: a curve given by its curvature says itself how the section turns",
+                "leave `frame` out; k1 turns the section about the axis",
+            );
+            return;
+        }
+        SectionFrame::Direction { .. } => true,
+        SectionFrame::RotationMinimising { start, .. } => start.is_some(),
+        // Where there is no curvature, this is refused with the shape.
+        SectionFrame::Frenet { .. } => false,
+    };
+    if idle && is_straight(&beam.curve) {
+        issues.add_with_hint(
+            path,
+            "changes nothing: the section of a straight beam points wherever its start is turned",
+            "turn the start about the axis: `start = { ..., rotation = { axis = [1, 0, 0], angle = \"90 deg\" } }`",
+        );
+    }
+}
+
+fn check_frame(beam: &Beam, path: &str, issues: &mut Issues) {
+    check_frame_acts(beam, path, issues);
     let direction = |vector: &Vector3<f64>, key: &str, issues: &mut Issues| {
         issues.finite_vector(format!("{path}.{key}"), vector);
         if *vector == Vector3::zeros() {
             issues.add(format!("{path}.{key}"), "a direction must not be zero");
         }
     };
-    match frame {
+    match &beam.frame {
         SectionFrame::Natural => {}
         SectionFrame::Frenet { offset } => {
             issues.finite(format!("{path}.offset"), *offset);

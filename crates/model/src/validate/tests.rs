@@ -50,7 +50,7 @@ fn a_sound_model_has_no_issue() {
 fn each_mistake_is_found_where_it_is() {
     let mass = |at| PointMass { name: "m".into(), point: BeamPoint { beam: BeamId(0), at }, mass: 1.0 };
     assert_eq!(paths(|m| m.materials[0].young = f64::NAN), ["material.steel.young"]);
-    assert_eq!(paths(|m| m.materials[0].shear = 1e9), ["material.steel.shear"]);
+    assert_eq!(paths(|m| m.materials[0].shear = 0.0), ["material.steel.shear"]);
     assert_eq!(paths(|m| m.materials[0].density = Some(-1.0)), ["material.steel.density"]);
     assert_eq!(paths(|m| m.beams[0].section = SectionId(7)), ["beam.link.section"]);
     assert_eq!(paths(|m| m.beams[0].material = None), ["beam.link"]);
@@ -333,4 +333,96 @@ fn tubes_nest_and_the_innermost_reaches_farthest() {
     let taper = Profile::Function(Function::parse("3e-3 - 1e-6*s", "s").unwrap());
     let tapered = Shape::Tube { outer_diameter: taper, inner_diameter: 2.2e-3.into() };
     assert_eq!(with(&|_, s| s[2].shape = tapered.clone()), last);
+}
+
+fn doubts(change: impl Fn(&mut Model)) -> Vec<String> {
+    let mut model = good();
+    change(&mut model);
+    assert_eq!(model.validate(), []);
+    model.doubts().into_iter().map(|issue| issue.path).collect()
+}
+
+#[test]
+fn the_moduli_of_a_composite_are_sound_and_noted() {
+    assert!(doubts(|_| ()).is_empty());
+    assert_eq!(doubts(|m| m.materials[0].shear = 1e9), ["material.steel.shear"]);
+    // Rubber and cork lie within.
+    assert!(doubts(|m| m.materials[0].shear = 207e9 / 3.0).is_empty());
+    assert!(doubts(|m| m.materials[0].shear = 207e9 / 2.0).is_empty());
+    // Plane strain divides by 1 - ν², of which nothing is known then.
+    let strip = Shape::Rectangle { width: 0.02.into(), height: 1e-3.into() };
+    let plane = |m: &mut Model| {
+        m.sections[0].shape = strip.clone();
+        m.sections[0].plane_strain = true;
+    };
+    assert!(paths(plane).is_empty());
+    let composite = |m: &mut Model| {
+        plane(m);
+        m.materials[0].shear = 1e9;
+    };
+    assert_eq!(paths(composite), ["section.wire.plane_strain"]);
+}
+
+#[test]
+fn a_section_as_thick_as_its_beam_is_long_is_doubted_once() {
+    let wire = |diameter: f64| {
+        move |m: &mut Model| m.sections[0].shape = Shape::Circle { diameter: diameter.into() }
+    };
+    assert!(doubts(wire(0.05)).is_empty());
+    assert_eq!(doubts(wire(0.1)), ["section.wire.diameter"]);
+    let strip = |width: f64, height: f64| {
+        move |m: &mut Model| {
+            m.sections[0].shape = Shape::Rectangle { width: width.into(), height: height.into() }
+        }
+    };
+    assert!(doubts(strip(0.2, 1e-3)).is_empty());
+    assert_eq!(doubts(strip(20.0, 1e-3)), ["section.wire.width"]);
+    let four = |m: &mut Model| {
+        wire(1.0)(m);
+        for name in ["b", "c", "d"] {
+            let beam = Beam { name: name.into(), ..m.beams[0].clone() };
+            m.beams.push(beam);
+        }
+    };
+    let mut model = good();
+    four(&mut model);
+    let told = model.doubts();
+    assert_eq!(told.len(), 1);
+    assert!(told[0].message.ends_with("(and so of 3 other beams)"), "{}", told[0].message);
+}
+
+#[test]
+fn gravity_without_a_mass_is_doubted() {
+    let heavy = |m: &mut Model| m.gravity = Vector3::new(0.0, 0.0, -9.81);
+    assert_eq!(doubts(heavy), ["gravity"]);
+    let dense = |m: &mut Model| {
+        heavy(m);
+        m.materials[0].density = Some(7800.0);
+    };
+    assert!(doubts(dense).is_empty());
+    let carries = |m: &mut Model| {
+        heavy(m);
+        let point = BeamPoint { beam: BeamId(0), at: At::Fraction(1.0) };
+        m.masses.push(PointMass { name: "m".into(), point, mass: 1.0 });
+    };
+    assert!(doubts(carries).is_empty());
+}
+
+#[test]
+fn a_frame_that_changes_nothing_is_refused() {
+    let along = SectionFrame::Direction { along: Vector3::z() };
+    let start = SectionFrame::RotationMinimising { start: Some(Vector3::z()), twist: None };
+    let twist = Function::constant(0.0);
+    let twisted = SectionFrame::RotationMinimising { start: None, twist: Some(twist) };
+    for (frame, idle) in [(along, true), (start, true), (twisted, false), (SectionFrame::Natural, false)] {
+        let on =
+            |curve: Curve| paths(|m| (m.beams[0].frame, m.beams[0].curve) = (frame.clone(), curve.clone()));
+        let line: Vec<Vector3<f64>> = [0.0, 0.03, 0.1].map(|x| Vector3::new(x, 2.0 * x, 0.0)).into();
+        for curve in [Curve::Straight { length: 0.1 }, Curve::Points { points: line }] {
+            assert_eq!(on(curve).contains(&"beam.link.frame".to_string()), idle, "{frame:?}");
+        }
+        assert!(on(Curve::Arc { radius: 0.1, angle: 1.0 }).is_empty(), "{frame:?}");
+        let given = Curve::Curvature { curvature: [0.0, 0.0, 1.0].map(Profile::from), length: 0.1 };
+        assert_eq!(on(given).is_empty(), frame == SectionFrame::Natural, "{frame:?}");
+    }
 }

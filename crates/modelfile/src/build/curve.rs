@@ -233,8 +233,13 @@ pub(super) fn from_file<const N: usize>(
         if std::mem::take(&mut first) && cells.iter().all(|cell| cell.parse::<f64>().is_err()) {
             for (column, name) in columns.iter_mut().zip(names) {
                 let Some(position) = cells.iter().position(|cell| cell.eq_ignore_ascii_case(name)) else {
-                    let near = nearest(name, cells.iter().copied())
-                        .map_or(String::new(), |near| format!(" (is it `{near}`?)"));
+                    // A column that is another coordinate is not meant for this one.
+                    let others = cells
+                        .iter()
+                        .copied()
+                        .filter(|cell| !names.iter().any(|other| cell.eq_ignore_ascii_case(other)));
+                    let near =
+                        nearest(name, others).map_or(String::new(), |near| format!(" (is it `{near}`?)"));
                     return Err(wrong(line_number, format!("there is no column `{name}`{near}")));
                 };
                 *column = position;

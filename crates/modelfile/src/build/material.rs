@@ -1,11 +1,12 @@
 //! Materials and cross sections.
 
-use crate::context::{Needed, Read, Reported};
+use super::named_entries;
+use crate::context::{Context, Needed, Read, Reported};
 use crate::format::{Key, Need, Shape as Format};
 use crate::reader::Reader;
 use crate::tree::{Node, Value};
 use flexura_expression::{Dimension, nearest};
-use flexura_model::{At, Material, Notch, NotchShape, Profile, Section, Shape};
+use flexura_model::{At, Material, Model, Notch, NotchShape, Profile, Section, Shape};
 use flexura_spatial::Matrix6;
 use std::collections::BTreeMap;
 
@@ -62,10 +63,12 @@ pub(super) fn section(reader: &Reader<'_, '_>, name: String) -> Read<Section> {
         }
         "stiffness" if reader.has("matrix") => matrix_section(reader, &dimensions)?,
         "stiffness" => {
-            let [ea, gj, ei2, ei3] = ["EA", "GJ", "EI2", "EI3"].map(|key| dimensions.get(key));
+            let [gj, ei2, ei3] = ["GJ", "EI2", "EI3"].map(|key| dimensions.stiffness(key));
+            let ea = dimensions.optional("EA");
             let [ga2, ga3, mass] = ["GA2", "GA3", "mass_per_length"].map(|key| dimensions.optional(key));
             Shape::Stiffness {
-                ea: ea?,
+                // Only beams that do not stretch may have such a section, which `check_stretch` sees to.
+                ea: ea?.unwrap_or(Profile::Constant(f64::INFINITY)),
                 gj: gj?,
                 ei2: ei2?,
                 ei3: ei3?,
@@ -107,8 +110,60 @@ impl Dimensions<'_, '_, '_> {
         }
     }
 
+    /// A stiffness that every beam needs, with what it is for where it is missing.
+    fn stiffness(&self, key: &str) -> Read<Profile> {
+        self.optional(key)?.ok_or_else(|| missing_stiffness(self.reader, key))
+    }
+
     fn get(&self, key: &str) -> Read<Profile> {
         self.optional(key)?.ok_or_else(|| self.reader.missing_key(key))
+    }
+}
+
+fn missing_stiffness(reader: &Reader<'_, '_>, name: &str) -> Reported {
+    let Some(key) = reader.keys().iter().find(|key| key.name == name) else {
+        return reader.missing_key(name);
+    };
+    let purpose = match name {
+        "EA" => "it resists stretching; beams with `extension = false` need none",
+        "GJ" => "it resists twisting, also where nothing seems to twist",
+        "EI2" => "it resists bending about e2",
+        _ => "it resists bending about e3",
+    };
+    let message = format!("the key `{name}` is missing: {purpose}");
+    reader.wrong_with_hint(
+        message,
+        format!("for example `{name} = {}`, or `{name} = inf` if it is rigid", key.example),
+    )
+}
+
+/// A section without EA is for beams that do not stretch: the first beam that does is named.
+pub(super) fn check_stretch(context: &Context<'_>, model: &Model) {
+    for entry in named_entries(context, "section") {
+        let is = |key: &str, word: &str| {
+            entry
+                .node
+                .get(key)
+                .is_some_and(|entry| matches!(&entry.node.value, Value::Text(text) if text == word))
+        };
+        let along = entry.node.get("along").map(|along| &along.node.value);
+        let in_rows =
+            matches!(along, Some(Value::List(rows)) if rows.iter().any(|row| row.get("EA").is_some()));
+        let direct = is("shape", "stiffness") && entry.node.get("matrix").is_none();
+        if !direct || in_rows || entry.node.get("EA").is_some() {
+            continue;
+        }
+        let stretches = model.beams.iter().find(|beam| {
+            beam.theory.extension && model.sections.get(beam.section.0).is_some_and(|s| s.name == entry.key)
+        });
+        if let Some(beam) = stretches {
+            let message = format!(
+                "the key `EA` is missing: it resists stretching, and beam `{}` may stretch",
+                beam.name
+            );
+            let hint = "for example `EA = \"1e6 N\"`; or give the beam `extension = false`";
+            context.wrong_with_hint(&entry.key_span, &format!("section.{}", entry.key), message, hint);
+        }
     }
 }
 

@@ -20,9 +20,10 @@ mod tubes;
 mod unknown;
 
 use crate::context::Context;
-use crate::format::{FILE, Key, Named, Shape, Table};
+use crate::format::{FILE, Key, Shape, Table};
 use crate::parameters;
 use crate::reader::Reader;
+use crate::report::Problem;
 use crate::tree::{Entry, Node, Value};
 use flexura_model::{Model, Parameter, Study, name_problem};
 use flexura_spatial::Vector3;
@@ -59,6 +60,7 @@ pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<M
     model.sections = each(context, "section", material::section);
     model.bodies = each(context, "body", body::body);
     model.beams = each(context, "beam", beam::beam);
+    material::check_stretch(context, &model);
     model.joints = each(context, "joint", joint::joint);
     let couplings = each(context, "coupling", |reader, name| coupling::coupling(reader, name, &model.joints));
     model.couplings = couplings;
@@ -192,30 +194,65 @@ fn each<'c, 'a, T>(
     built
 }
 
-/// What nothing refers to.
-pub(crate) fn unused(context: &Context<'_>) -> Vec<crate::report::Problem> {
-    let mut warnings = Vec::new();
-    let kinds = [
-        ("parameter", ""),
-        ("material", ""),
-        ("section", ""),
-        (Named::Body.word(), " and nothing holds or loads it"),
-    ];
-    // A repeated table is told once.
+/// What looks unintended: things that nothing refers to, numbers and parts that are hardly meant.
+pub(crate) fn warnings(context: &Context<'_>, model: &Model) -> Vec<Problem> {
+    let mut warnings = unused(context);
+    warnings.extend(context.doubts());
     let mut told = BTreeSet::new();
-    for (word, more) in kinds {
-        for entry in context.root.get(word).map_or(&[][..], |entry| entry.node.entries()) {
-            if context.is_used(word, &entry.key) {
-                continue;
-            }
-            let path = format!("{word}.{}", entry.key);
-            if context.is_copy(&path) && !told.insert(entry.key_span.start) {
-                continue;
-            }
-            let message = format!("the {word} `{}` is never used{more}", entry.key);
-            warnings.push(context.problem(&entry.key_span, &path, message).warning());
+    for doubt in model.doubts() {
+        let span = context.root.locate(&doubt.path).unwrap_or(0..0);
+        // The copies of a repeated table are told once.
+        if context.is_copy(&doubt.path) && !told.insert(span.start) {
+            continue;
         }
+        let mut warning = context.problem(&span, &doubt.path, doubt.message).warning();
+        warning.hint = doubt.hint;
+        warnings.push(warning);
     }
     warnings.sort_by_key(|warning| warning.span.start);
+    warnings
+}
+
+/// What nothing refers to. Many of a kind are told together.
+fn unused(context: &Context<'_>) -> Vec<Problem> {
+    let mut warnings = Vec::new();
+    let kinds = [
+        ("parameter", "parameters", ""),
+        ("material", "materials", ""),
+        ("section", "sections", ""),
+        ("body", "bodies", " and nothing holds or loads it"),
+    ];
+    for (word, plural, more) in kinds {
+        // A repeated table is told once.
+        let mut told = BTreeSet::new();
+        let entries = context.root.get(word).map_or(&[][..], |entry| entry.node.entries());
+        let idle: Vec<&Entry> = entries
+            .iter()
+            .filter(|entry| !context.is_used(word, &entry.key))
+            .filter(|entry| {
+                !context.is_copy(&format!("{word}.{}", entry.key)) || told.insert(entry.key_span.start)
+            })
+            .collect();
+        let warning = |entry: &Entry, message: String| {
+            let path = format!("{word}.{}", entry.key);
+            context.problem(&entry.key_span, &path, message).warning()
+        };
+        match idle.as_slice() {
+            [first, second, third, _, ..] => {
+                let (first_name, more) = (&first.key, idle.len() - 3);
+                let message = format!(
+                    "{} {plural} are never used: `{first_name}`, `{}`, `{}` and {more} more",
+                    idle.len(),
+                    second.key,
+                    third.key
+                );
+                warnings.push(warning(first, message));
+            }
+            few => warnings.extend(
+                few.iter()
+                    .map(|entry| warning(entry, format!("the {word} `{}` is never used{more}", entry.key))),
+            ),
+        }
+    }
     warnings
 }

@@ -67,9 +67,15 @@ pub(crate) static SECTION: Table = Table {
             ),
             variant(
                 "stiffness",
-                "Stiffnesses given directly: EA, GJ, EI2, EI3 (and GA2, GA3 for a beam that shears), or `matrix`. No stress is reported.",
+                "Stiffnesses given directly: GJ, EI2, EI3, EA for a beam that stretches, GA2 and GA3 for one that shears, or `matrix`. No stress is reported.",
                 &[
-                    key("EA", Shape::Stiffness(D::FORCE), Along, "\"1e6 N\"", "Axial stiffness."),
+                    key(
+                        "EA",
+                        Shape::Stiffness(D::FORCE),
+                        Optional,
+                        "\"1e6 N\"",
+                        "Axial stiffness; beams with `extension = false` need none.",
+                    ),
                     key(
                         "GJ",
                         Shape::Stiffness(D::BENDING_STIFFNESS),

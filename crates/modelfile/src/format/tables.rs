@@ -145,7 +145,7 @@ pub(crate) const REPEAT: Key = key(
 );
 
 pub(crate) static MATERIAL: Table = table(
-    "A linear elastic, isotropic material. Give `shear` or `poisson`.",
+    "A linear elastic material: isotropic with `poisson`; with `shear`, E and G stand for themselves, as along the fibres of a composite.",
     &[
         key("young", Shape::Number(D::PRESSURE), Required, "\"207 GPa\"", "Young's modulus."),
         key("shear", Shape::Number(D::PRESSURE), Optional, "\"79.3 GPa\"", "Shear modulus."),

@@ -1,13 +1,16 @@
 //! Values behind the keys of a table: numbers, vectors, texts, names, places, functions.
 
 use super::{Reader, example, list};
-use crate::context::{Read, Reported};
+use crate::context::{Doubt, Read, Reported};
 use crate::format::{Key, Named, Shape};
 use crate::tree::{Node, Value};
 use flexura_expression::{Dimension, Function, Kind, Quantity, nearest};
 use flexura_model::{At, BodyId, Mount, Profile};
 use flexura_spatial::Vector3;
+use std::f64::consts::TAU;
 
+/// A full turn, with what people round it up to.
+const TURN: f64 = 6.2832;
 /// Larger counts are mistakes.
 const MOST_COUNT: f64 = 1e9;
 
@@ -42,13 +45,37 @@ impl<'c> Reader<'c, '_> {
         Ok(quantity)
     }
 
+    /// More than a full turn without a unit is rather meant in degrees.
+    fn doubt_radians(&self, node: &Node, path: &str, dimension: &Dimension, quantity: &Quantity) {
+        let value = quantity.value;
+        if !dimension.is_angle() || quantity.kind != Kind::Plain || value.abs() <= TURN {
+            return;
+        }
+        let hint = match &node.value {
+            Value::Text(text) => {
+                format!("write `{text} deg` if it is one number, else give its parts their units")
+            }
+            _ => format!("write `\"{value} deg\"`, or `\"{value} rad\"` if it is meant so"),
+        };
+        self.context.doubt(Doubt {
+            span: node.span.clone(),
+            path: path.to_string(),
+            message: format!("an angle without a unit is in radians: {value} is {:.1} turns", value / TAU),
+            hint,
+        });
+    }
+
     pub(crate) fn quantity(&self, name: &str) -> Read<Option<Quantity>> {
         let Some((entry, key)) = self.entry(name) else { return Ok(None) };
         self.number_in(&entry.node, &self.key_path(name), key, &key.shape.dimension(), false).map(Some)
     }
 
     pub(crate) fn number(&self, name: &str) -> Read<Option<f64>> {
-        Ok(self.quantity(name)?.map(|quantity| quantity.value))
+        let Some(quantity) = self.quantity(name)? else { return Ok(None) };
+        if let Some((entry, key)) = self.entry(name) {
+            self.doubt_radians(&entry.node, &self.key_path(name), &key.shape.dimension(), &quantity);
+        }
+        Ok(Some(quantity.value))
     }
 
     /// A whole number that is not negative.
@@ -101,7 +128,10 @@ impl<'c> Reader<'c, '_> {
         let mut result = Ok(());
         for (i, (item, dimension)) in list.iter().zip(dimensions).enumerate() {
             match self.number_in(item, &format!("{path}[{i}]"), key, dimension, false) {
-                Ok(quantity) => values[i] = quantity,
+                Ok(quantity) => {
+                    self.doubt_radians(item, &format!("{path}[{i}]"), dimension, &quantity);
+                    values[i] = quantity;
+                }
                 Err(Reported) => result = Err(Reported),
             }
         }

@@ -20,6 +20,7 @@ use flexura_model::{
 };
 use readable::{of_beam, of_body, of_joint, of_line, of_model, of_spring, of_tubes, of_whole_beam};
 use std::cell::Cell;
+use std::collections::BTreeMap;
 use walk::Meaning;
 
 const ROOTS: &[&str] = &["beam", "body", "joint", "spring", "cable", "tubes", "model"];
@@ -46,8 +47,10 @@ pub(super) fn output(context: &Context<'_>, entry: &Entry, model: &Model) -> Rea
 pub(super) fn live_outputs(context: &Context<'_>, model: &Model, outputs: &[Built]) -> Vec<Built> {
     let results = Results { context, model, outputs: None, is_live: true, may_be_infinite: true };
     let count = context.count();
+    let entries = context.root.get("output").map_or(&[][..], |entry| entry.node.entries());
+    let by_name: BTreeMap<&str, &Entry> = entries.iter().map(|entry| (entry.key.as_str(), entry)).collect();
     let live = |built: &Built| {
-        let entry = context.root.get("output")?.node.get(&built.output.name)?;
+        let entry = by_name.get(built.output.name.as_str())?;
         let Value::Text(text) = &entry.node.value else { return None };
         let live = results.read(&entry.node, "", text, entry.key.clone()).ok();
         // What can only be read with a parameter's value, such as a power, keeps that.
