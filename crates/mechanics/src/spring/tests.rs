@@ -348,3 +348,24 @@ fn ends_inside_or_opposite_have_no_path() {
     let inside = cylinder.around(&V::new(0.1, 0.0, 3.0), &V::new(0.0, 1.0, 0.0)).unwrap_err();
     assert_eq!(inside, PathError::Inside { end: 0, distance: 0.1 });
 }
+
+/// From the top of a circle of radius r to a point at the distance d from the middle, at the angle γ from it:
+/// r (γ - acos(r/d)) along the rim and then √(d² - r²).
+#[test]
+fn an_end_on_the_rim_leaves_along_the_tangent() {
+    let (radius, far, angle) = (0.05f64, 0.08f64, 2.0f64);
+    let expected = radius * (angle - (radius / far).acos()) + (far * far - radius * radius).sqrt();
+    let end = V::new(far * angle.cos(), far * angle.sin(), 0.0);
+    let obstacles = [Obstacle::Sphere { radius }, Obstacle::Cylinder { radius, axis: V::z(), turn: None }];
+    for obstacle in obstacles {
+        for slip in [0.0, 1e-15, -1e-15, -1e-12] {
+            let path = obstacle.around(&V::new(radius * (1.0 + slip), 0.0, 0.0), &end).unwrap().unwrap();
+            assert!((path.length - expected).abs() < 1e-12, "{slip}: {} {expected}", path.length);
+            // The pull on the end is a unit vector along the rim.
+            assert!((path.gradient[0] + V::y()).norm() < 1e-6, "{:?}", path.gradient[0]);
+            assert!(path.hessian.iter().flatten().all(|block| block.iter().all(|x| x.is_finite())));
+        }
+        let inside = obstacle.around(&V::new(radius * (1.0 - 1e-6), 0.0, 0.0), &end);
+        assert!(matches!(inside, Err(PathError::Inside { end: 0, .. })));
+    }
+}

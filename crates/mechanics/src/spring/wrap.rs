@@ -28,6 +28,11 @@ type V = Vector3<f64>;
 /// Sine of the angle at the centre of a sphere below which points count as opposite each other.
 const OPPOSITE: f64 = 1e-9;
 
+/// An end that is no deeper inside than this part of the radius is on the rim: places are rounded numbers.
+const RIM: f64 = 1e-9;
+/// Least tangent, relative to the radius: on the rim itself the second derivative r²/(l A²) has no bound.
+const LEAST_TANGENT: f64 = 1e-9;
+
 /// The largest turn between two points of a course, rad.
 const ARC_STEP: f64 = PI / 36.0;
 
@@ -53,7 +58,7 @@ pub enum Obstacle {
 /// Why there is no path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PathError {
-    /// An end is not outside.
+    /// An end is neither outside nor on the rim.
     Inside {
         /// 0 or 1.
         end: usize,
@@ -148,7 +153,7 @@ impl Around {
 }
 
 fn outside(radius: f64, distances: [f64; 2]) -> Result<(), PathError> {
-    match distances.iter().position(|distance| distance.is_nan() || *distance <= radius) {
+    match distances.iter().position(|distance| distance.is_nan() || *distance < radius * (1.0 - RIM)) {
         Some(end) => Err(PathError::Inside { end, distance: distances[end] }),
         None => Ok(()),
     }
@@ -156,7 +161,8 @@ fn outside(radius: f64, distances: [f64; 2]) -> Result<(), PathError> {
 
 /// None where the straight line clears the circle, which lies across `normal`; `angle` from a to b about it.
 fn planar(radius: f64, points: [&V; 2], distances: [f64; 2], normal: &V, angle: f64) -> Option<Planar> {
-    let tangents = distances.map(|d| ((d - radius) * (d + radius)).sqrt());
+    let tangents =
+        distances.map(|d| ((d - radius) * (d + radius)).max(0.0).sqrt().max(LEAST_TANGENT * radius));
     let arccos = [0, 1].map(|i| tangents[i].atan2(radius));
     let arc = angle - arccos[0] - arccos[1];
     if arc <= 0.0 {
