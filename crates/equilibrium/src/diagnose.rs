@@ -115,6 +115,7 @@ impl Equilibrium {
             );
         }
         census.warnings.extend(self.wide_strips());
+        census.warnings = flexura_solution::summed_up(census.warnings);
         census
     }
 

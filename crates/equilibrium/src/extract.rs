@@ -2,7 +2,7 @@
 
 use crate::system::Equilibrium;
 use flexura_mechanics::joint::{ContactState, Kinematics};
-use flexura_solution::{BeamSolution, ContactSolution, JointSolution, Solution, Status, Work};
+use flexura_solution::{BeamSolution, ContactSolution, JointSolution, Solution, Status, Work, summed_up};
 use flexura_spatial::{Pose, Wrench};
 
 /// Nodes and weights of three-point Gauss quadrature on [0, 1].
@@ -111,7 +111,7 @@ impl Equilibrium {
             load_fraction: self.load,
             residual: f64::NAN,
             error_estimate: 0.0,
-            warnings,
+            warnings: summed_up(warnings),
             work: Work {
                 integration_steps: self.total_steps(),
                 segments: self.segments(),

@@ -95,7 +95,8 @@ impl Equilibrium {
     pub fn with_probes(model: &Model, further: &[BeamPoint]) -> Result<Self, ProblemError> {
         let mut probes = crate::neighbour::probes(model);
         probes.extend(further);
-        let lowered = lower::lower(model, &probes, None)?;
+        let mut lowered = lower::lower(model, &probes, None)?;
+        lowered.warnings = flexura_solution::summed_up(std::mem::take(&mut lowered.warnings));
         let mut this = Self {
             model: model.clone(),
             probes,

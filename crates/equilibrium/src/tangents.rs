@@ -9,6 +9,9 @@ use flexura_spatial::{Matrix6, Twist, Vector3};
 
 /// Part of the load by which the motion along the load is found, by differences of order six.
 const PART: f64 = 1e-2;
+/// Part of the largest compliance below which another one cannot be told from nothing. A strip whose thickness is a
+/// hundred thousandth of its length stretches by 8e-12 of what it bends.
+const ROUND_OFF: f64 = 1e-13;
 
 impl Equilibrium {
     /// The node of a body, or of a place on a beam at which there is one.
@@ -80,6 +83,7 @@ impl Equilibrium {
                     compliance[(3 + i, column)] = motion.angular[i];
                 }
             }
+            clear_round_off(&mut compliance, scale.length);
             let motion = self.motion_in(node, &along);
             all.push(TangentSolution { target, compliance: Some(compliance), motion });
         }
@@ -97,6 +101,31 @@ impl Equilibrium {
             Mount::Ground => false,
             Mount::Body(_) => true,
             Mount::Beam(point) => self.lowered.hub_at(&point).is_some(),
+        }
+    }
+}
+
+/// What is round-off beside the largest entry is nothing: a motion that is driven or held gives way by exactly zero.
+/// Entries are compared as if lengths were counted in `length` (m).
+fn clear_round_off(compliance: &mut Matrix6<f64>, length: f64) {
+    // Motion per load: m/N, 1/N, 1/N, 1/(N m); times these factors all are in m/N.
+    let factor = |i: usize, j: usize| match (i < 3, j < 3) {
+        (true, true) => 1.0,
+        (false, false) => length * length,
+        _ => length,
+    };
+    let size = |i: usize, j: usize, value: f64| value.abs() * factor(i, j);
+    let mut largest = 0.0f64;
+    for j in 0..6 {
+        for i in 0..6 {
+            largest = largest.max(size(i, j, compliance[(i, j)]));
+        }
+    }
+    for j in 0..6 {
+        for i in 0..6 {
+            if size(i, j, compliance[(i, j)]) < ROUND_OFF * largest {
+                compliance[(i, j)] = 0.0;
+            }
         }
     }
 }

@@ -103,7 +103,7 @@ mod tests {
             ("rad", "N", "rad/N"),
             ("Pa", "m", "Pa/m"),
             ("m", "N*m", "1/N"),
-            ("rad", "N*m/rad", "rad/(N*m/rad)"),
+            ("rad", "N*m/rad", "rad/N/m"),
         ];
         for (over, under, unit) in cases {
             assert_eq!(quotient(over, under), unit, "{over} / {under}");

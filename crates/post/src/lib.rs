@@ -7,6 +7,7 @@ mod dependence;
 mod outputs;
 mod place;
 mod screw;
+mod strain;
 mod stress;
 mod summary;
 
@@ -15,6 +16,7 @@ pub use flexura_geometry::SectionStress;
 pub use outputs::{OutputResult, OutputValue, evaluate_outputs};
 pub use place::place_name;
 pub use screw::{Screw, center_of_compliance, finite_screw, instantaneous_screw};
+pub use strain::large_strain;
 pub use stress::{BeamPeaks, BeamStress, Peak, beam_stress};
 pub use summary::{
     BeamSummary, BodySummary, CoordinateSummary, JointSummary, OutputSummary, Scales, Summary, TubesSummary,
@@ -161,6 +163,21 @@ pub enum PostError {
         /// What came out.
         value: f64,
     },
+    /// A division by the compliance of a motion that nothing gives way to.
+    #[error(
+        "output `{output}` divides by the compliance of {place} along {motion}, which is zero: {why}; a stiffness under a drive is \
+         the derivative of its effort, which `--sensitivity` gives"
+    )]
+    Blocked {
+        /// Name of the output.
+        output: String,
+        /// Where.
+        place: String,
+        /// The motion: x, y, z, rx, ry or rz.
+        motion: &'static str,
+        /// Why it is blocked.
+        why: String,
+    },
     /// Stress or strain of a section that has no shape.
     #[error(
         "output `{output}` asks for stress or strain in beam `{beam}`, whose section is given as a stiffness and has no outer fibre"
@@ -222,6 +239,7 @@ impl PostError {
     pub fn output(&self) -> &str {
         match self {
             PostError::NotFinite { output, .. }
+            | PostError::Blocked { output, .. }
             | PostError::NoStress { output, .. }
             | PostError::NoSample { output, .. }
             | PostError::NoTurning { output, .. }

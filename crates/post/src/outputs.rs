@@ -1,8 +1,11 @@
 //! The outputs that a model asks for.
 
+use crate::place::place_name;
 use crate::screw::{center_of_compliance, finite_screw, instantaneous_screw};
 use crate::{BeamStress, PostError};
-use flexura_model::{At, BeamId, BodyId, Model, Output, Probe, ProbeTarget, Quantity};
+use flexura_model::{
+    At, BeamId, BodyId, Drive, JointLaw, Model, Mount, Output, Probe, ProbeTarget, Quantity,
+};
 use flexura_solution::{ContactSolution, Rates, Solution, TangentSolution};
 use flexura_spatial::{Matrix6, Pose, Vector3, log};
 
@@ -52,6 +55,11 @@ pub(crate) fn evaluate(
     for formula in &output.formulas {
         let value = formula.evaluate(&slots);
         if !value.is_finite() {
+            let is_blocked =
+                |(probe, slot): (&Probe, &f64)| probe.quantity == Quantity::Compliance && *slot == 0.0;
+            if let Some(error) = output.probes.iter().zip(&slots).find(|pair| is_blocked(*pair)) {
+                return Err(reader.blocked(error.0));
+            }
             return Err(PostError::NotFinite { output: output.name.clone(), value });
         }
         values.push(value);
@@ -203,6 +211,31 @@ impl Reader<'_> {
                 screw.point.get(component).copied().ok_or_else(missing)
             }
             _ => Ok(screw.pitch),
+        }
+    }
+
+    /// A compliance that is zero, by which something was divided.
+    fn blocked(&self, probe: &Probe) -> PostError {
+        let mounted = |mount: Mount| match (probe.target, mount) {
+            (ProbeTarget::Body(body), Mount::Body(other)) => body == other,
+            (ProbeTarget::Beam(beam, _), Mount::Beam(point)) => beam == point.beam,
+            _ => false,
+        };
+        let drives =
+            |law: &JointLaw| law.coordinates.iter().any(|law| matches!(law.drive, Drive::Driven { .. }));
+        let driver = self
+            .model
+            .joints
+            .iter()
+            .find(|joint| drives(&joint.law) && (mounted(joint.child) || mounted(joint.parent.mount)));
+        PostError::Blocked {
+            output: self.output.to_owned(),
+            motion: ["x", "y", "z", "rx", "ry", "rz"][(probe.component / 6).min(5)],
+            place: place_name(self.model, &probe.target),
+            why: match driver {
+                Some(joint) => format!("joint.{} drives it", joint.name),
+                None => "it is held".to_owned(),
+            },
         }
     }
 

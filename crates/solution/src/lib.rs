@@ -6,6 +6,7 @@
 mod contact;
 mod motion;
 mod trace;
+mod warnings;
 mod words;
 
 pub use contact::ContactSolution;
@@ -14,6 +15,7 @@ pub use trace::{
     Branch, BranchEnd, BranchOrigin, Buckling, BucklingMode, CriticalCurve, Crossing, Direction, PointKind,
     Trace, TracePoint, TraceWork,
 };
+pub use warnings::summed_up;
 
 use flexura_model::ProbeTarget;
 use flexura_spatial::{Matrix6, Pose, Twist, Vector3, Wrench};

@@ -12,7 +12,7 @@ use flexura::modelfile::Document;
 use flexura::output::{
     OutputError, beams_csv, document as document_of, equilibrium_document, model_vtp, shape_svg,
 };
-use flexura::post::{Evaluation, Scales, evaluate_each, summarise};
+use flexura::post::{Evaluation, Scales, evaluate_each, large_strain, summarise};
 use flexura::solution::{Solution, Status};
 use flexura::{FileFamily, Options, equilibria, place, solve_family};
 
@@ -36,8 +36,11 @@ pub fn study(task: &Task<'_>, guesses: Option<(usize, u64)>) -> Result<Answer, F
     let solved = solve_family(&task.model, &mut family, options, &mut |progress| meter.update(progress));
     meter.finish();
     let (mut solution, model) = solved.map_err(|error| problem_failure(file, &error))?;
-    let warnings = solution.warnings.clone();
     let evaluation = evaluate_each(&model, &solution);
+    if solution.status == Status::Converged {
+        solution.warnings.extend(large_strain(&model, &solution, &evaluation));
+    }
+    let warnings = solution.warnings.clone();
     // The document's warnings tell of outputs without a value too; a person is shown where they stand.
     solution.warnings.extend(evaluation.without_value.iter().map(ToString::to_string));
     let others = match guesses {
