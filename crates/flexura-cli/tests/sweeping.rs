@@ -112,7 +112,7 @@ fn a_sample_that_fails_is_a_row_and_not_the_end() {
     assert_eq!(
         rows[0],
         [
-            "length [m]",
+            "length [mm]",
             "push [N]",
             "status",
             "tip.x [m]",
@@ -126,7 +126,7 @@ fn a_sample_that_fails_is_a_row_and_not_the_end() {
             "warnings"
         ]
     );
-    assert_eq!(rows[2][..9], ["-0.05", "1.0", "input_error", "", "", "", "", "", ""]);
+    assert_eq!(rows[2][..9], ["-50.0", "1.0", "input_error", "", "", "", "", "", ""]);
     assert_eq!(rows[2][10..].join(","), "\"beam.leaf.length: must be positive, is -0.05\",");
     assert_eq!(rows[3][2], "converged");
 

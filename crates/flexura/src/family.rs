@@ -10,6 +10,8 @@ pub struct FileFamily<'a> {
     overrides: Vec<(String, String)>,
     parameters: Vec<Parameter>,
     studies: Vec<Study>,
+    /// Which parameters the model depends on, once it was asked.
+    matter: Option<Vec<bool>>,
 }
 
 impl<'a> FileFamily<'a> {
@@ -21,6 +23,7 @@ impl<'a> FileFamily<'a> {
             overrides: overrides.to_vec(),
             parameters: model.parameters.clone(),
             studies: model.studies.clone(),
+            matter: None,
         }
     }
 }
@@ -42,6 +45,12 @@ impl flexura_study::Family for FileFamily<'_> {
                 "choose another guess or a range",
             )
         })
+    }
+
+    fn depends_on(&mut self, parameter: usize) -> bool {
+        let (document, overrides) = (self.document, &self.overrides);
+        let matter = self.matter.get_or_insert_with(|| document.parameters_that_matter(overrides));
+        matter.get(parameter).copied().unwrap_or(true)
     }
 }
 

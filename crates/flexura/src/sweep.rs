@@ -24,6 +24,10 @@ pub struct Axis {
     pub unit: String,
     /// SI.
     pub values: Vec<f64>,
+    /// The unit in which they were typed, the SI unit where they were typed in several.
+    pub typed_unit: String,
+    /// The values in that unit.
+    pub typed: Vec<f64>,
 }
 
 impl Axis {
@@ -49,44 +53,84 @@ impl Axis {
             ));
         }
         let unit = &model.parameters[position].unit;
-        let number = |text: &str| number(name, unit, text);
-        let parts = |separator: char| split(range, separator).into_iter().map(|part| &range[part]);
-        let values = match parts(':').collect::<Vec<_>>()[..] {
-            [_] => parts(',').map(number).collect::<Result<Vec<f64>, _>>()?,
+        let parts = |separator: char| split(range, separator).into_iter().map(|part| range[part].trim());
+        match parts(':').collect::<Vec<_>>()[..] {
+            [_] => {
+                let texts: Vec<&str> = parts(',').collect();
+                let values =
+                    texts.iter().map(|text| number(name, unit, text)).collect::<Result<Vec<_>, _>>()?;
+                let typed = common_unit(&texts);
+                Ok(Self::of(name, unit, values, typed))
+            }
             [from, to, count] => {
-                let (from, to) = (number(from)?, number(to)?);
+                let ends = [number(name, unit, from)?, number(name, unit, to)?];
                 let count: usize = count
-                    .trim()
                     .parse()
                     .ok()
                     .filter(|count| (2..=MOST_SAMPLES).contains(count))
                     .ok_or_else(|| {
-                        let count = count.trim();
                         format!("`{count}` is no number of values for `{name}`: a whole number from 2 on is wanted")
                     })?;
-                // Both ends are met exactly.
-                let last = (count - 1) as f64;
-                let between = |i: usize| (from * (last - i as f64) + to * i as f64) / last;
-                (0..count)
-                    .map(|i| {
-                        if i == 0 {
-                            from
-                        } else if i + 1 == count {
-                            to
-                        } else {
-                            between(i)
-                        }
-                    })
-                    .collect()
+                let Some((typed_unit, typed_ends)) = common_unit(&[from, to]) else {
+                    return Ok(Self::of(name, unit, between(&ends, count), None));
+                };
+                let typed = between(&typed_ends, count);
+                let si = |value: &f64| number(name, unit, &format!("{value:e} {typed_unit}"));
+                let values = typed.iter().map(si).collect::<Result<Vec<_>, _>>()?;
+                Ok(Self::of(name, unit, values, Some((typed_unit, typed))))
             }
-            _ => {
-                return Err(format!(
-                    "`{range}` is no range for `{name}`: write from, to and how many, as in {name}=\"0:1:11\""
-                ));
-            }
-        };
-        Ok(Self { parameter: name.to_owned(), unit: unit.clone(), values })
+            _ => Err(format!(
+                "`{range}` is no range for `{name}`: write from, to and how many, as in {name}=\"0:1:11\""
+            )),
+        }
     }
+
+    fn of(name: &str, unit: &str, values: Vec<f64>, typed: Option<(String, Vec<f64>)>) -> Self {
+        let (typed_unit, typed) = typed.unwrap_or_else(|| (unit.to_owned(), values.clone()));
+        Self { parameter: name.to_owned(), unit: unit.to_owned(), values, typed_unit, typed }
+    }
+}
+
+/// `count` values from one end to the other in equal steps. Both ends are met exactly, and no value between them has
+/// more than 15 digits, so that a third step of 1 mm is 3 mm and not 3.0000000000000004.
+fn between(ends: &[f64], count: usize) -> Vec<f64> {
+    let (from, to) = (ends[0], ends[1]);
+    let last = (count - 1) as f64;
+    let value = |i: usize| match i {
+        0 => from,
+        _ if i + 1 == count => to,
+        _ => {
+            let value = (from * (last - i as f64) + to * i as f64) / last;
+            format!("{value:.14e}").parse().unwrap_or(value)
+        }
+    };
+    (0..count).map(value).collect()
+}
+
+/// The unit that all of the texts have behind their number, and the numbers. None where they differ, or one is an
+/// expression; a zero goes with any unit.
+fn common_unit(texts: &[&str]) -> Option<(String, Vec<f64>)> {
+    let mut unit: Option<&str> = None;
+    let mut numbers = Vec::with_capacity(texts.len());
+    for text in texts {
+        let end = text.char_indices().map(|(i, c)| i + c.len_utf8()).rev().chain([0]).find(|end| {
+            text[..*end].parse::<f64>().is_ok_and(f64::is_finite)
+                && text[..*end].ends_with(|c: char| c.is_ascii_digit() || c == '.')
+        })?;
+        let number: f64 = text[..end].parse().ok()?;
+        let own = text[end..].trim();
+        numbers.push(number);
+        match unit {
+            _ if own.is_empty() && number == 0.0 => {}
+            None => unit = Some(own),
+            Some(known) if known == own => {}
+            Some(_) => return None,
+        }
+    }
+    let unit = unit.unwrap_or_default();
+    // Nothing but a unit: `2*a` would be an expression.
+    let is_unit = !unit.is_empty() && unit.chars().all(|c| !"+-()[],".contains(c));
+    is_unit.then(|| (unit.to_owned(), numbers))
 }
 
 /// A number with an optional unit that fits the parameter's.
@@ -147,6 +191,8 @@ impl SampleStatus {
 pub struct Sample {
     /// Value of each varied parameter, SI.
     pub values: Vec<f64>,
+    /// The same in the units in which they were typed.
+    pub typed: Vec<f64>,
     /// How it ended.
     pub status: SampleStatus,
     /// Values of the model's unknowns, SI.
@@ -259,22 +305,27 @@ impl<'a> Sweep<'a> {
             .collect())
     }
 
-    /// The values of one sample.
-    fn values(&self, position: usize) -> Vec<f64> {
+    /// Which of its values each axis has in a sample.
+    fn places(&self, position: usize) -> Vec<usize> {
         let mut rest = position;
-        let mut values: Vec<f64> = Vec::with_capacity(self.axes.len());
+        let mut places: Vec<usize> = Vec::with_capacity(self.axes.len());
         for axis in self.axes.iter().rev() {
-            values.push(axis.values[rest % axis.values.len()]);
+            places.push(rest % axis.values.len());
             rest /= axis.values.len();
         }
-        values.reverse();
-        values
+        places.reverse();
+        places
     }
 
     /// A sample that nobody has looked at.
     fn unsolved(&self, position: usize) -> Sample {
+        let places = self.places(position);
+        let of = |values: fn(&Axis) -> &Vec<f64>| -> Vec<f64> {
+            self.axes.iter().zip(&places).map(|(axis, place)| values(axis)[*place]).collect()
+        };
         Sample {
-            values: self.values(position),
+            values: of(|axis| &axis.values),
+            typed: of(|axis| &axis.typed),
             status: SampleStatus::Solved(Status::Interrupted),
             found: Vec::new(),
             outputs: Vec::new(),
@@ -354,6 +405,24 @@ mod tests {
         assert_eq!(axis("push=3,min(1 N, 2 N),2 N").unwrap(), [3.0, 1.0, 2.0]);
         assert_eq!(axis("turns=1:5:5").unwrap(), [1.0, 2.0, 3.0, 4.0, 5.0]);
         assert!((axis("slope=90 deg").unwrap()[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+    }
+
+    #[test]
+    fn values_are_kept_in_the_unit_that_was_typed_with_the_fewest_digits() {
+        let parameter =
+            |name: &str, unit: &str| Parameter { name: name.into(), value: 1.0, unit: unit.into() };
+        let parameters = vec![parameter("length", "m"), parameter("slope", "rad"), parameter("turns", "")];
+        let model = Model { parameters, ..Model::default() };
+        let typed = |text: &str| Axis::parse(&model, text).map(|axis| (axis.typed_unit, axis.typed)).unwrap();
+        assert_eq!(typed("length=1 mm:5 mm:5"), ("mm".into(), vec![1.0, 2.0, 3.0, 4.0, 5.0]));
+        assert_eq!(typed("length=0.001:0.005:5").1, [0.001, 0.002, 0.003, 0.004, 0.005]);
+        assert_eq!(typed("slope=0:90 deg:4"), ("deg".into(), vec![0.0, 30.0, 60.0, 90.0]));
+        assert_eq!(typed("slope=10 deg,-2e1 deg"), ("deg".into(), vec![10.0, -20.0]));
+        assert_eq!(typed("length=1 mm:1 cm:2"), ("m".into(), vec![0.001, 0.01]));
+        assert_eq!(typed("length=1 mm,min(1 mm, 2 mm)").0, "m");
+        assert_eq!(typed("turns=1:2:3"), (String::new(), vec![1.0, 1.5, 2.0]));
+        let axis = Axis::parse(&model, "length=1 mm:5 mm:5").unwrap();
+        assert_eq!(axis.values, [0.001, 0.002, 0.003, 0.004, 0.005]);
     }
 
     #[test]

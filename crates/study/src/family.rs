@@ -11,6 +11,11 @@ pub trait Family {
     /// # Errors
     /// The values make no sound model: a length that is negative, say.
     fn model(&mut self, values: &[(usize, f64)]) -> Result<Model, ProblemError>;
+
+    /// May the model depend on this parameter? Where it does not for certain, nothing has to be tried out.
+    fn depends_on(&mut self, _parameter: usize) -> bool {
+        true
+    }
 }
 
 impl<F: FnMut(&[(usize, f64)]) -> Result<Model, ProblemError>> Family for F {

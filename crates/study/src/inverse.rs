@@ -292,9 +292,11 @@ impl Prepared {
             if let Some([low, high]) = unknown.range
                 && (next < low - 1e-9 * (high - low) || next > high + 1e-9 * (high - low))
             {
-                let name = &self.model().parameters[*parameter].name;
+                let parameter = &self.model().parameters[*parameter];
+                let unit = if parameter.unit.is_empty() { "" } else { " " };
                 return Corrected::Failed(format!(
-                    "the parameter `{name}` would leave its range with {next:.6e}"
+                    "the parameter `{}` would leave its range with {next:.6e}{unit}{}",
+                    parameter.name, parameter.unit
                 ));
             }
             moved.push((*parameter, next));

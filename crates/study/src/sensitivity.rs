@@ -15,6 +15,7 @@ use flexura_model::Model;
 use flexura_nonlinear::{Breakdown, System};
 use flexura_post::{OutputValue, PostError};
 use flexura_solution::{Sensitivities, Solution};
+use flexura_spatial::{Twist, Vector3};
 use nalgebra::{DMatrix, DVector};
 
 /// First relative step of the differences, and by how much the next ones are shorter.
@@ -193,7 +194,18 @@ impl Prepared {
         let mut given: Vec<usize> = parameters.iter().copied().filter(|p| !unknown.contains(p)).collect();
         let (mut columns, mut left_out) = (Vec::new(), Vec::new());
         self.problem.linearise()?;
+        let mut idle: Option<Vec<Option<f64>>> = None;
         for &parameter in unknown.iter().chain(&given) {
+            if !family.depends_on(parameter) {
+                if idle.is_none() {
+                    // Nothing changes, but an output without a value has no derivative either.
+                    let values = self.outputs_here()?;
+                    idle = Some(values.iter().map(|value| value.map(|_| 0.0)).collect());
+                }
+                let still = Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
+                columns.push((idle.clone().unwrap_or_default(), vec![still; bodies]));
+                continue;
+            }
             let value = self.problem.model().parameters[parameter].value;
             let size = size_of(self.problem.model(), parameter, self.problem.units(), SMALL);
             let (slopes, along) = match self.slopes(family, parameter, value, size) {

@@ -230,7 +230,7 @@ impl<'a> Table<'a> {
             if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") }
         };
         let mut header: Vec<String> =
-            self.axes.iter().map(|axis| headed(&axis.parameter, &axis.unit)).collect();
+            self.axes.iter().map(|axis| headed(&axis.parameter, &axis.typed_unit)).collect();
         header.push("status".into());
         for unknown in &self.model.unknowns {
             let parameter = &self.model.parameters[unknown.parameter];
@@ -252,7 +252,7 @@ impl<'a> Table<'a> {
         let cell = |value: Option<f64>| {
             value.filter(|value| value.is_finite()).map_or_else(String::new, |value| format!("{value:?}"))
         };
-        let mut row: Vec<String> = sample.values.iter().map(|value| cell(Some(*value))).collect();
+        let mut row: Vec<String> = sample.typed.iter().map(|value| cell(Some(*value))).collect();
         row.push(sample.status.word().to_owned());
         row.extend((0..self.model.unknowns.len()).map(|i| cell(sample.found.get(i).copied())));
         for (i, output) in self.model.outputs.iter().enumerate() {
