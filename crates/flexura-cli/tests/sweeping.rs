@@ -73,7 +73,7 @@ fn the_numbers_do_not_depend_on_how_many_threads_there_are() {
     let rows = rows(&one);
     let pairs: Vec<String> =
         rows[1..].iter().map(|row| format!("{} {}", row[0], &row[1][..row[1].len().min(6)])).collect();
-    assert_eq!(pairs, ["1.0 0.007", "1.0 0.0075", "1.0 0.008", "5.0 0.007", "5.0 0.0075", "5.0 0.008"]);
+    assert_eq!(pairs, ["1.0 7.0", "1.0 7.5", "1.0 8.0", "5.0 7.0", "5.0 7.5", "5.0 8.0"]);
 }
 
 /// A stage on two leaves whose length is a parameter.
@@ -231,10 +231,9 @@ fn a_quotient_of_parameters_without_a_value_leaves_the_others() {
     let sweep = flexura().arg("sweep").arg(&file).args(["--vary", "push=0 N,0.01 N"]).output().unwrap();
     assert_eq!(code(&sweep), 0, "{}", stderr(&sweep));
     let rows = rows(&stdout(&sweep));
-    assert_eq!(
-        (cell(&rows, 1, "ratio [rad/N]"), cell(&rows, 1, "tip.x [m]")),
-        (String::new(), "0.1".to_owned())
-    );
+    assert_eq!(cell(&rows, 1, "ratio [rad/N]"), "");
+    let tip: f64 = cell(&rows, 1, "tip.x [m]").parse().unwrap();
+    assert!((tip - 0.1).abs() < 1e-15);
     // L^2 / (2 E I), turning about -y.
     let ratio: f64 = cell(&rows, 2, "ratio [rad/N]").parse().unwrap();
     let slope = -0.1_f64.powi(2) / (2.0 * 207e9 * 10e-3 * 0.5e-3_f64.powi(3) / 12.0);
