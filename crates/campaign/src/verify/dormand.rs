@@ -57,7 +57,9 @@ pub fn integrate<const N: usize>(
         let mut error = 0.0_f64;
         for i in (0..N).filter(|i| scale[*i] > 0.0) {
             let difference: f64 = (0..7).map(|j| E[j] * k[j][i]).sum();
-            error = error.max((h * difference).abs() / (tolerance * scale[i]));
+            let part = (h * difference).abs() / (tolerance * scale[i]);
+            // `max` passes over what is no number.
+            error = if part.is_nan() { f64::INFINITY } else { error.max(part) };
         }
         if !error.is_finite() && h.abs() <= shortest {
             return Err(s);
