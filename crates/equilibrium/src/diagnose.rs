@@ -5,6 +5,7 @@ use crate::lower::{JointOrigin, NodeOrigin};
 use crate::system::Equilibrium;
 use flexura_model::CoordinateKind;
 use flexura_nonlinear::Matrix;
+use flexura_spatial::singular_values;
 use nalgebra::DMatrix;
 
 /// What the model is: unknowns against equations.
@@ -262,7 +263,7 @@ impl Equilibrium {
 /// Orthonormal vectors that a square matrix takes to (nearly) nothing.
 pub(crate) fn null_space_of(matrix: DMatrix<f64>) -> Vec<Vec<f64>> {
     let n = matrix.ncols();
-    let svd = matrix.svd(false, true);
+    let Some(svd) = singular_values(matrix, false, true) else { return Vec::new() };
     let Some(vt) = svd.v_t else { return Vec::new() };
     let largest = svd.singular_values.max();
     let small = svd.singular_values.iter().enumerate().filter(|(_, value)| **value <= RANK * largest);

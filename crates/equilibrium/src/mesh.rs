@@ -36,6 +36,8 @@ pub(crate) struct SpanMesh {
     pub law_error: f64,
     /// Would it need more steps than are made?
     pub is_overfull: bool,
+    /// Steps that it would need; as far as they were counted if it is overfull.
+    pub wanted: usize,
 }
 
 /// Exponent by which a segment may let its start grow.
@@ -44,7 +46,7 @@ const GROWTH: f64 = 8.0;
 const CONSTANT: f64 = 3e-9;
 /// Most steps of a span; a load that wants more is a mistake, or beyond double precision.
 pub(crate) const MOST_STEPS: usize = 100_000;
-/// Most stretches that an interval is cut into.
+/// Most stretches that an interval is cut into, before equal neighbours are joined.
 const MOST_PARTS: usize = 10_000;
 /// A step never turns a section further than this, however loose the accuracy.
 const LARGEST_TURN: f64 = 2.2;
@@ -110,6 +112,7 @@ struct Plan {
     parts: Vec<Part>,
     law_error: f64,
     is_overfull: bool,
+    wanted: usize,
 }
 
 impl Cutter<'_> {
@@ -161,6 +164,11 @@ impl Cutter<'_> {
             steps += plan.parts[known..].iter().map(|part| part.steps).sum::<usize>();
         }
         plan.is_overfull |= steps >= MOST_STEPS;
+        plan.wanted = steps;
+        if plan.is_overfull {
+            // Nothing is worked out on it; it need not take memory.
+            plan.parts.iter_mut().for_each(|part| part.steps = 1);
+        }
         plan
     }
 
@@ -168,21 +176,28 @@ impl Cutter<'_> {
     fn halve(&mut self, whole: [f64; 2], measure: &Measure, plan: &mut Plan) {
         let first = plan.parts.len();
         let winding = self.winding(whole);
-        let mut open = vec![whole];
+        let (mut open, mut made) = (vec![whole], 0);
         while let Some([a, b]) = open.pop() {
+            if plan.is_overfull {
+                // What is left takes no more looks.
+                let look = plan.parts.last().map_or_else(|| self.law.even_look(whole), |last| last.look);
+                plan.parts.push(Part { s: [a, whole[1]], steps: 1, look });
+                break;
+            }
             let (s, middle) = ([a, b], 0.5 * (a + b));
             let look = self.look(s);
             let level = self.course.over(s);
             let steps = level.steps(&look, winding, self.nondimensional(s), self.accuracy);
             let narrow = b - a <= NARROWEST * self.law.length;
-            let full = plan.parts.len() - first + open.len() >= MOST_PARTS;
-            plan.is_overfull |= full;
+            let full = made + open.len() >= MOST_PARTS;
+            plan.is_overfull |= full || narrow && steps >= MOST_STEPS;
             if !(narrow || full) && (steps > MOST_AT_ONCE || !self.takes_in(s, &look, &level, measure, plan))
             {
                 open.push([middle, b]);
                 open.push([a, middle]);
                 continue;
             }
+            made += 1;
             let part = Part { s, steps, look };
             match plan.parts[first..].last_mut() {
                 Some(last) if last.joins(&part) => last.join(&part),
@@ -297,7 +312,7 @@ impl Cutter<'_> {
         let plan = self.plan(&places);
         let mut mesh = SpanMesh::assemble(self.law, self.span, ends, &plan.parts);
         mesh.made_for = self.course.clone();
-        (mesh.law_error, mesh.is_overfull) = (plan.law_error, plan.is_overfull);
+        (mesh.law_error, mesh.is_overfull, mesh.wanted) = (plan.law_error, plan.is_overfull, plan.wanted);
         mesh
     }
 
@@ -322,7 +337,7 @@ impl Cutter<'_> {
         }
         let places = self.places(&mesh.ends());
         let plan = self.plan(&places);
-        mesh.is_overfull = plan.is_overfull;
+        (mesh.is_overfull, mesh.wanted) = (plan.is_overfull, plan.wanted);
         for (stretch, part) in mesh.segments.iter_mut().flatten().zip(&plan.parts) {
             let wanted = if grow { part.steps.max(stretch.piece.steps) } else { part.steps };
             stretch.restep(self.law, self.span, wanted);
@@ -391,8 +406,8 @@ impl SpanMesh {
             }
         }
         let first_jumps = jumps_at(first);
-        let (made_for, law_error, is_overfull) = (Course::default(), 0.0, false);
-        Self { first_jumps, segments, made_for, law_error, is_overfull }
+        let (made_for, law_error, is_overfull, wanted) = (Course::default(), 0.0, false, 0);
+        Self { first_jumps, segments, made_for, law_error, is_overfull, wanted }
     }
 
     /// The same mesh for the law of a neighbouring model: what lies between two places where something happens goes along with
@@ -425,7 +440,8 @@ impl SpanMesh {
         let mesh = Self::assemble(to.0, to.1, &ends, &parts);
         let same = mesh.stretches().zip(self.stretches()).all(|(a, b)| a.jumps.len() == b.jumps.len());
         let made_for = self.made_for.clone();
-        same.then_some(Self { made_for, law_error: self.law_error, is_overfull: self.is_overfull, ..mesh })
+        let Self { law_error, is_overfull, wanted, .. } = *self;
+        same.then_some(Self { made_for, law_error, is_overfull, wanted, ..mesh })
     }
 
     pub fn stretches(&self) -> impl Iterator<Item = &Stretch> {

@@ -64,13 +64,13 @@ impl Equilibrium {
         }
         let length = |stretch: &Stretch| (stretch.s[1] - stretch.s[0]) / law.scale.length;
         let turns = mesh.stretches().map(|s| length(s) * s.look.bend).sum::<f64>() / std::f64::consts::TAU;
-        if mesh.steps() >= MOST_STEPS && turns > 0.1 * MOST_STEPS as f64 {
+        if turns > 0.1 * MOST_STEPS as f64 {
             return Some(format!(
                 "beam.{name}: its unstressed shape winds {turns:.0} times round, which would take more than {MOST_STEPS} integration \
                  steps; check its numbers"
             ));
         }
-        if mesh.steps() >= MOST_STEPS {
+        if mesh.wanted >= MOST_STEPS {
             return Some(format!(
                 "beam.{name}: it is loaded, or bedded, so hard for its stiffness that more than {MOST_STEPS} integration steps would be \
                  needed along it; check the units and the section's dimensions"

@@ -356,7 +356,9 @@ fn tangent_at(system: &mut impl System, point: &mut Point, step: &mut [f64]) -> 
     system.newton_step(step);
     point.state = snapshot(system);
     system.set_load(point.load + part);
-    system.residual().ok()?;
+    let beside = system.residual();
+    system.set_load(point.load);
+    beside.ok()?;
     let mut slope = vec![0.0; step.len()];
     system.newton_step(&mut slope);
     for (r, s) in slope.iter_mut().zip(step.iter()) {

@@ -6,9 +6,11 @@
 //!
 //! Quaternions are stored as `(w, x, y, z)` wherever they appear as four numbers.
 
+mod decomposition;
 mod pose;
 mod so3;
 
+pub use decomposition::{eigenvalues, singular_values};
 pub use pose::{Pose, Twist, Wrench};
 pub use so3::{exp, hat, left_jacobian, left_jacobian_inverse, log, rotation_from_axes};
 

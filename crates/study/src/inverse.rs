@@ -18,6 +18,7 @@ use crate::{Outcome, Prepared, Progress};
 use flexura_equilibrium::ProblemError;
 use flexura_nonlinear::System;
 use flexura_solution::Status;
+use flexura_spatial::singular_values;
 use nalgebra::{DMatrix, DVector};
 
 /// Turning (rad), or relative change of a parameter, in a first correction beyond which a step of the targets is
@@ -209,7 +210,8 @@ impl Prepared {
                 }
             }
         }
-        last
+        let reason = "the parameters keep moving by more than the tolerance when the mesh is made for them; ask for a larger tolerance";
+        Outcome::without(Status::AccuracyLimit, reason.to_string(), last.error_estimate, last.path)
     }
 
     /// Newton to the goal; the size of the first correction when it has converged.
@@ -378,7 +380,7 @@ impl Prepared {
                 scaled.row_mut(i).unscale_mut(largest);
             }
         }
-        let svd = scaled.svd(true, true);
+        let svd = singular_values(scaled, true, true)?;
         let (u, vt) = (svd.u?, svd.v_t?);
         let largest = svd.singular_values.max();
         let k = svd.singular_values.iter().position(|s| *s <= RANK * largest)?;

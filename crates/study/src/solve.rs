@@ -138,7 +138,8 @@ impl Prepared {
     /// As [`Prepared::new`].
     pub fn with_probes(model: &Model, probes: &[BeamPoint]) -> Result<Self, ProblemError> {
         let mut problem = Equilibrium::with_probes(model, probes)?;
-        let footing = problem.footing()?;
+        // What is beyond reach is said by every solve; nothing is worked out on its mesh.
+        let footing = if problem.beyond_reach().is_some() { Footing::Firm } else { problem.footing()? };
         let mut this = Self { problem, path: PathOptions::default(), border: None, footing };
         if this.footing != Footing::Firm {
             this.check_start()?;

@@ -8,7 +8,7 @@
 
 use super::error::SurfaceError;
 use crate::dual::Scalar;
-use flexura_spatial::Vector3;
+use flexura_spatial::{Vector3, singular_values};
 use nalgebra::{DMatrix, DVector};
 
 /// Highest degree.
@@ -105,7 +105,9 @@ impl Heights {
             }
             right[row] = weight * (square - 1.0);
         }
-        let decomposition = matrix.svd(true, true);
+        let Some(decomposition) = singular_values(matrix, true, true) else {
+            return Err(SurfaceError::Undetermined { degree });
+        };
         let values = &decomposition.singular_values;
         let open = OPEN * values.max();
         if !(values.min() > open) {

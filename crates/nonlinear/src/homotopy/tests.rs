@@ -100,9 +100,19 @@ fn a_path_without_a_fold_reaches_the_full_load() {
 fn a_path_stops_at_a_fold_and_does_not_jump_over_it() {
     // x - x³/3 folds at x = 1 with f = 2/3; beyond it only the far branch x < -1 solves f = 0.8.
     let mut system = Scalar::new(0.8, |x| (x - x * x * x / 3.0, 1.0 - x * x));
-    let (end, _) = follow(&mut system, &PathOptions::default(), &mut |_, _| {});
+    let options = PathOptions { leaves_crossings: false, ..PathOptions::default() };
+    let (end, _) = follow(&mut system, &options, &mut |_, _| {});
     let PathEnd::Blocked { load, .. } = end else { panic!("{end:?}") };
     assert!((load * 0.8 - 2.0 / 3.0).abs() < 1e-4, "stopped at {load}");
     // Points of the path are only as good as `point_tolerance`.
     assert!((system.x - 1.0).abs() < 0.02, "{}", system.x);
+}
+
+#[test]
+fn a_path_that_starts_at_the_full_load_leaves_the_load_as_it_is() {
+    let mut system = Scalar::new(2.0, |x| (x, 1.0));
+    (system.x, system.load) = (2.0, 1.0);
+    let mut work = PathWork::default();
+    let end = follow_on(&mut system, 1.0, &PathOptions::default(), &mut work, &mut |_, _| {});
+    assert_eq!((end, system.load, system.x), (PathEnd::Complete, 1.0, 2.0));
 }

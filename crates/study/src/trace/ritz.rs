@@ -3,6 +3,7 @@
 //! A start of several vectors finds eigenvalues that occur several times, as those of round columns do. (Y. Saad, *Numerical Methods for
 //! Large Eigenvalue Problems*, 2nd ed., 2011, ch. 6.)
 
+use flexura_spatial::{eigenvalues, singular_values};
 use nalgebra::{DMatrix, DVector};
 
 /// Vectors of the start, and most of the space.
@@ -59,7 +60,7 @@ pub(crate) fn smallest(operator: &mut dyn FnMut(&mut [f64]), n: usize, count: us
         return Vec::new();
     }
     let small = DMatrix::from_fn(m, m, |i, j| space[i].dot(&images[j]));
-    let eigenvalues = small.complex_eigenvalues();
+    let Some(eigenvalues) = eigenvalues(small.clone()) else { return Vec::new() };
     let largest = eigenvalues.iter().map(|e| e.re.hypot(e.im)).fold(0.0, f64::max);
     let mut real: Vec<f64> = eigenvalues
         .iter()
@@ -75,7 +76,7 @@ pub(crate) fn smallest(operator: &mut dyn FnMut(&mut [f64]), n: usize, count: us
             real[position..].iter().take_while(|t| (**t - theta).abs() <= 1e-7 * theta.abs()).count();
         position += together;
         let shifted = &small - DMatrix::identity(m, m) * theta;
-        let svd = shifted.svd(false, true);
+        let Some(svd) = singular_values(shifted, false, true) else { continue };
         let Some(vt) = svd.v_t else { continue };
         let mut order: Vec<usize> = (0..m).collect();
         order.sort_by(|a, b| svd.singular_values[*a].total_cmp(&svd.singular_values[*b]));
