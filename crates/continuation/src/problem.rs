@@ -121,6 +121,7 @@ pub fn slope<P: Problem>(problem: &mut P, which: usize) -> Result<Vec<f64>, Refu
     let (mut before, mut after) = (vec![0.0; n], vec![0.0; n]);
     problem.system().newton_step(&mut before);
     // Where the parameter can go one way only, the other side serves.
+    let mut refused = Refusal::Broken(Breakdown::NotFinite);
     for h in [DIFFERENCE, -DIFFERENCE] {
         let mut there = here;
         there[which] += h;
@@ -134,11 +135,11 @@ pub fn slope<P: Problem>(problem: &mut P, which: usize) -> Result<Vec<f64>, Refu
             after.iter_mut().zip(&before).for_each(|(a, b)| *a = (*a - b) / h);
             return Ok(after);
         }
-        if h < 0.0 {
-            outcome?;
+        if let (true, Err(refusal)) = (h > 0.0, outcome) {
+            refused = refusal;
         }
     }
-    Err(Refusal::Broken(Breakdown::NotFinite))
+    Err(refused)
 }
 
 /// The same by a central difference. The system's residual is that of a neighbouring parameter afterwards.

@@ -243,6 +243,11 @@ impl BeamLaw {
         })
     }
 
+    /// Is a distributed load written in the section's axes, whatever its value?
+    pub fn may_follow(&self) -> bool {
+        self.beam.distributed.iter().any(|d| d.axes == LoadAxes::Section)
+    }
+
     /// Is there a distributed moment in fixed axes?
     pub fn turns(&self) -> bool {
         self.beam

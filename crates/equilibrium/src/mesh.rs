@@ -307,7 +307,7 @@ impl Cutter<'_> {
         self.build_between(&ends)
     }
 
-    fn build_between(&mut self, ends: &[f64]) -> SpanMesh {
+    pub fn build_between(&mut self, ends: &[f64]) -> SpanMesh {
         let places = self.places(ends);
         let plan = self.plan(&places);
         let mut mesh = SpanMesh::assemble(self.law, self.span, ends, &plan.parts);
@@ -316,11 +316,16 @@ impl Cutter<'_> {
         mesh
     }
 
+    /// Is the law even, and was it when the mesh was made? Then only the numbers of steps differ.
+    fn fits(&self, plan: &Plan, mesh: &SpanMesh) -> bool {
+        self.span.is_even(self.law) && plan.parts.len() == mesh.stretches().count()
+    }
+
     /// Does the span need more steps than the mesh has?
     pub fn wants_steps(&mut self, mesh: &SpanMesh) -> bool {
         let places = self.places(&mesh.ends());
         let plan = self.plan(&places);
-        if self.span.is_even(self.law) {
+        if self.fits(&plan, mesh) {
             return plan.parts.iter().zip(mesh.stretches()).any(|(part, s)| part.steps > s.piece.steps);
         }
         plan.parts.iter().map(|part| part.steps).sum::<usize>() > mesh.steps()
@@ -328,15 +333,15 @@ impl Cutter<'_> {
 
     /// Cuts the same segments anew; with `grow` nothing gets coarser.
     pub fn restep(&mut self, mesh: &mut SpanMesh, grow: bool) {
-        if !self.span.is_even(self.law) {
+        let places = self.places(&mesh.ends());
+        let plan = self.plan(&places);
+        if !self.fits(&plan, mesh) {
             let larger = self.course.max(&mesh.made_for);
             let course = if grow { &larger } else { self.course };
             let mut cutter = Cutter { course, looks: &mut *self.looks, ..*self };
             *mesh = cutter.build_between(&mesh.ends());
             return;
         }
-        let places = self.places(&mesh.ends());
-        let plan = self.plan(&places);
         (mesh.is_overfull, mesh.wanted) = (plan.is_overfull, plan.wanted);
         for (stretch, part) in mesh.segments.iter_mut().flatten().zip(&plan.parts) {
             let wanted = if grow { part.steps.max(stretch.piece.steps) } else { part.steps };

@@ -3,7 +3,7 @@
 use crate::error::ProblemError;
 use crate::look::Looks;
 use crate::lower::{self, Lowered};
-use crate::mesh::SpanMesh;
+use crate::mesh::{Cutter, SpanMesh};
 use crate::system::Equilibrium;
 use flexura_model::{BeamPoint, Model, ProbeTarget, Quantity};
 use flexura_nonlinear::System;
@@ -42,6 +42,38 @@ impl Equilibrium {
     /// # Errors
     /// A model that cannot be prepared, or one that is made of other parts.
     pub fn neighbour(&self, model: &Model) -> Result<Law, ProblemError> {
+        self.law_of(model, |_, _| None)
+    }
+
+    /// The same for a model in which something may happen along its beams where nothing did, or in another order: a load with a
+    /// step grows from nothing, two loads pass each other. Such spans are cut anew into as many segments, so that the law is
+    /// the same to the accuracy of the mesh only, and no difference of such laws is worth more.
+    ///
+    /// # Errors
+    /// As [`Equilibrium::neighbour`].
+    pub fn neighbour_anew(&self, model: &Model) -> Result<Law, ProblemError> {
+        self.law_of(model, |lowered, index| {
+            let (span, own) = (&lowered.spans[index], &self.lowered.spans[index]);
+            let part = (span.s[1] - span.s[0]) / (own.s[1] - own.s[0]);
+            let moved = |s: &f64| span.s[0] + part * (s - own.s[0]);
+            let mut ends: Vec<f64> = self.meshes[index].ends().iter().map(moved).collect();
+            if let Some(last) = ends.last_mut() {
+                *last = span.s[1];
+            }
+            let law = &lowered.beams[span.beam];
+            let (course, accuracy) = (&self.courses[index], self.accuracy);
+            let mut cutter = Cutter { law, span, looks: &mut Looks::default(), course, accuracy };
+            let mesh = cutter.build_between(&ends);
+            (mesh.segments.len() == ends.len()).then_some(mesh)
+        })
+    }
+
+    /// The law of a model; `anew` makes the mesh of a span on which other things happen.
+    fn law_of(
+        &self,
+        model: &Model,
+        anew: impl Fn(&Lowered, usize) -> Option<SpanMesh>,
+    ) -> Result<Law, ProblemError> {
         let mut lowered = lower::lower(model, &self.probes, Some(self.lowered.scale))?;
         lowered.warnings.clone_from(&self.lowered.warnings);
         let alike = lowered.nodes.len() == self.lowered.nodes.len()
@@ -64,9 +96,11 @@ impl Equilibrium {
                         == b.end.as_ref().map(|e| e.coordinates.unknowns())
             });
         let meshes = alike.then(|| {
-            let spans = lowered.spans.iter().zip(&self.lowered.spans).zip(&self.meshes);
-            let moved = spans.map(|((span, own), mesh)| {
-                mesh.under((&self.lowered.beams[own.beam], own), (&lowered.beams[span.beam], span))
+            let spans = lowered.spans.iter().zip(&self.lowered.spans).zip(&self.meshes).enumerate();
+            let moved = spans.map(|(i, ((span, own), mesh))| {
+                let under =
+                    mesh.under((&self.lowered.beams[own.beam], own), (&lowered.beams[span.beam], span));
+                under.or_else(|| anew(&lowered, i))
             });
             moved.collect::<Option<Vec<_>>>()
         });

@@ -10,7 +10,7 @@ use crate::error::ProblemError;
 use crate::scale::Scale;
 use flexura_mechanics::joint::Kinematics;
 use flexura_mechanics::load::PointLoad;
-use flexura_model::{BeamPoint, End, JointKind, LoadTarget, Model, Mount};
+use flexura_model::{BeamPoint, End, JointKind, LoadFrame, LoadTarget, Model, Mount};
 use flexura_spatial::{Pose, Twist, Vector3, Wrench};
 
 /// Where every beam lies in the undeformed mechanism. A beam held by another beam follows from it.
@@ -186,8 +186,9 @@ pub(super) fn lower_beam(model: &Model, lowered: &mut Lowered, beam: usize) -> R
             .collect();
         let law = &lowered.beams[beam];
         let founded = law.founded.meets([a, b], length);
-        let determinate =
-            end.is_none() && !founded && !law.follows() && inside.iter().all(|j| !j.load.follows());
+        // A load that follows counts where it is nothing at the moment, so that neighbouring models have the same parts.
+        let follows = |j: &Jump| j.source.is_some_and(|load| model.loads[load].frame != LoadFrame::Global);
+        let determinate = end.is_none() && !founded && !law.may_follow() && !inside.iter().any(follows);
         let mut span = Span {
             beam,
             s: [a, b],
@@ -226,7 +227,8 @@ fn point_loads(model: &Model, scale: &Scale, beam: usize, length: f64) -> Vec<Ju
         }
     }
     for mass in &model.masses {
-        if mass.point.beam.0 == beam && model.gravity != Vector3::zeros() {
+        // Without gravity, too, so that a neighbouring model with some has the same parts.
+        if mass.point.beam.0 == beam {
             let dead = scale.wrench_in(&Wrench::new(model.gravity * mass.mass, Vector3::zeros()));
             let load = PointLoad { dead, follower: Wrench::zero() };
             jumps.push(Jump { s: mass.point.at.arc_length(length), load, source: None });
