@@ -108,6 +108,9 @@ pub struct Walker {
 
 /// Size of a correction below which a step's tangent is made anew: what is left to correct then is nothing to the tangent.
 const LATE: f64 = 1e-4;
+/// Tries to come level with a point that a path seems to pass, and how far beside it that may be, as a part of the step.
+const ALIGNED: usize = 6;
+const SAME_PLACE: f64 = 1e-4;
 
 impl Walker {
     /// Starts at the present solution, towards larger (`1.0`) or smaller (`-1.0`) parameters.
@@ -380,7 +383,7 @@ impl Walker {
     }
 
     /// Does the last step pass through `point`, in the direction `tangent`?
-    pub fn passes<P: Problem>(&self, problem: &mut P, point: &Point, tangent: &Tangent) -> bool {
+    pub fn passes<P: Problem>(&mut self, problem: &mut P, point: &Point, tangent: &Tangent) -> bool {
         let Some((left, width)) = &self.last else { return false };
         if left.point.state.len() != point.state.len() || self.here.point.state.len() != point.state.len() {
             return false;
@@ -392,7 +395,30 @@ impl Walker {
         let aside = (square - along * along).max(0.0).sqrt();
         let same_way = tangent.step.len() == left.tangent.step.len()
             && left.tangent.product(system, &tangent.step, tangent.parameter) > 0.5;
-        same_way && along > 0.0 && along <= 1.05 * width && aside <= 0.25 * width
+        let (whole, part) = (*width, along / width);
+        let seems = same_way && along > 0.0 && along <= 1.05 * width && aside <= 0.25 * width;
+        seems && self.goes_through(problem, point, part, whole)
+    }
+
+    /// Is `point` on the path, and not just beside it, near `part` of the last step? A body that has turned once round may stand
+    /// as it stood before, but under another load.
+    fn goes_through<P: Problem>(&mut self, problem: &mut P, point: &Point, part: f64, width: f64) -> bool {
+        let mut part = part;
+        let mut aside = f64::INFINITY;
+        for _ in 0..ALIGNED {
+            let Ok(place) = self.between(problem, part) else { break };
+            let to = between(problem, &place.point, point);
+            let system = problem.system();
+            let along = place.tangent.product(system, &to.step, to.parameter);
+            let square = to.product(system, &to.step, to.parameter);
+            aside = (square - along * along).max(0.0).sqrt();
+            if along.abs() <= SAME_PLACE * width {
+                break;
+            }
+            part += along / width;
+        }
+        let _ = self.here.point.restore(problem);
+        aside <= SAME_PLACE * width.max(1e-3)
     }
 
     fn try_step<P: Problem>(&mut self, problem: &mut P, width: f64) -> Result<(Place, f64), (Miss, f64)> {

@@ -142,6 +142,8 @@ impl Follower<'_> {
         leg.points.push(point);
         let mut since_kept = 0;
         let mut steps = 0;
+        // Where the place stands in the leg that a loop is to come back to, and steps since then.
+        let (mut start_at, mut since_start) = (0, 0);
         let begins = start.point.parameters[0];
         let edge = if begins > 0.5 { 1.0 } else { 0.0 };
         let mut away = (begins - edge).abs() > ARRIVED;
@@ -159,6 +161,7 @@ impl Follower<'_> {
                 }
             };
             steps += 1;
+            since_start += 1;
             let scaled = walker.here().point.parameters[0];
             let beyond = !(-EDGE..=1.0 + EDGE).contains(&scaled);
             let limit = if scaled > 0.5 { 1.0 } else { 0.0 };
@@ -231,9 +234,9 @@ impl Follower<'_> {
                 return BranchEnd::Range;
             }
             let here = walker.here().clone();
-            if steps > 3 && walker.passes(traced, &start.point, &start.tangent) {
+            if since_start > 3 && walker.passes(traced, &start.point, &start.tangent) {
                 if from_start {
-                    if let Some(point) = leg.points.first().cloned() {
+                    if let Some(point) = leg.points.get(start_at).cloned() {
                         leg.points.push(TracePoint { arc: here.arc, ..point });
                     }
                 } else {
@@ -247,6 +250,7 @@ impl Follower<'_> {
             if start.point.state.len() != here.point.state.len() {
                 // Points of another layout cannot be compared; a loop is seen the next time round.
                 start = here.clone();
+                (start_at, since_start) = (leg.points.len(), 0);
             }
             let mut point = regular(traced.axes[0].value(scaled), &here, reading.clone(), error);
             since_kept += 1;
