@@ -35,6 +35,9 @@ pub struct Special {
     pub branches: Vec<Tangent>,
     /// Part of the step at which it lies.
     pub part: f64,
+    /// Of a simple branch point: |μ| there beside the second derivatives of μ, which is nothing but round-off and errors of the
+    /// discretisation where branches really cross.
+    pub imperfection: f64,
     /// Of a multiple point: from where it is found again.
     pub(crate) start: Option<Start>,
 }
@@ -302,13 +305,14 @@ fn finish<P: Problem>(
     let kernel = vec![value.along[0].clone()];
     if fold {
         let point = value.point.clone();
-        return Ok(Some(Special { crossing: None, point, kernel, branches: Vec::new(), part, start: None }));
+        return Ok(Some(Special { crossing: None, point, kernel, branches: Vec::new(), part, imperfection: 0.0, start: None }));
     }
     // The step's change of μ if it left the path by its own length.
     let scale = (shape.xi_p.abs() + shape.xi_xi.abs()).max(1e-300) * square;
     if value.mu.abs() > NOTHING * scale.max(1e-9) {
         return Ok(None);
     }
+    let imperfection = value.mu.abs() / (shape.xi_p.abs() + shape.xi_xi.abs()).max(1e-300);
     let Some(directions) = directions(&shape) else { return Ok(None) };
     let mut tangents = tangents(system, value, &directions);
     // The present branch's own direction is the one nearest to the step.
@@ -343,6 +347,7 @@ fn finish<P: Problem>(
         kernel,
         branches: tangents,
         part,
+        imperfection,
         start: None,
     }))
 }

@@ -221,7 +221,6 @@ fn a_column_on_an_elastic_bed_stays_straight() {
 /// A strut between clamps whose head slides obliquely: the path from rest bends, and keeps its symmetry about the middle. Critical at
 /// 0.7166 of the load by the trace, whose branch points are found on another way.
 #[test]
-#[ignore = "at 0.72 the path from rest still leaves its symmetry: a bend of a tiny imperfection is not yet told from a branch point"]
 fn a_strut_with_an_oblique_slider_keeps_its_symmetry() {
     let text = include_str!("from_rest/oblique_slider.toml");
     for i in 0..81 {

@@ -151,12 +151,8 @@ impl Prepared {
     fn check_start(&mut self) -> Result<(), ProblemError> {
         let mut problem = self.problem.clone();
         problem.allow_effort(self.most_effort());
-        let mut way = Way {
-            problem: &mut problem,
-            options: self.path,
-            work: PathWork::default(),
-            progress: &mut |_| {},
-        };
+        let mut progress = |_| {};
+        let mut way = Way::new(&mut problem, self.path, &mut progress);
         settle::stands(&mut way, &self.footing)
     }
 
@@ -260,8 +256,7 @@ impl Prepared {
         }
         let most = self.most_effort();
         self.problem.allow_effort(most);
-        let mut way =
-            Way { problem: &mut self.problem, options: self.path, work: PathWork::default(), progress };
+        let mut way = Way::new(&mut self.problem, self.path, progress);
         let gone = settle::go(&mut way, &self.footing);
         let work = way.work;
         self.problem.allow_effort(most);

@@ -52,6 +52,8 @@ const SAME: f64 = 1e-4;
 /// the state has gone, for that.
 const STEEP: f64 = 100.0;
 const GONE: f64 = 1e-3;
+/// Imperfection of a branch point beyond which no symmetry makes it; where one does, mirrored terms cancel to the last digit.
+const SYMMETRIC: f64 = 1e-15;
 /// Step by which a direction is carried to another layout.
 const SHIFT: f64 = 1e-5;
 /// Load fraction so near the full one that it is the full one.
@@ -102,9 +104,25 @@ pub(crate) struct Way<'a> {
     pub options: PathOptions,
     pub work: PathWork,
     pub progress: &'a mut dyn FnMut(Progress),
+    /// Was what looked like a branch point on the last walk not quite one?
+    imperfect: bool,
 }
 
-impl Way<'_> {
+impl<'a> Way<'a> {
+    /// A way that nothing has been gone of.
+    pub fn new(
+        problem: &'a mut Equilibrium,
+        options: PathOptions,
+        progress: &'a mut dyn FnMut(Progress),
+    ) -> Self {
+        Self { problem, options, work: PathWork::default(), progress, imperfect: false }
+    }
+
+    /// May a walk have passed the bend of an imperfection as if it were a branch point?
+    fn is_doubtful(&self, walked: &Walked) -> bool {
+        self.imperfect || matches!(walked, Walked::Fold(_))
+    }
+
     /// From the solution at the load `from` to the full load; the work done stands in `work`.
     ///
     /// # Errors
@@ -132,21 +150,27 @@ impl Way<'_> {
                 PathBlock::Interrupted => return Err(Ending::Interrupted { load }),
                 _ => {}
             }
-            if by == PathBlock::Crossing && start == 0.0 {
+            let walked = self.walk(load);
+            if by == PathBlock::Crossing && start == 0.0 && self.is_doubtful(&walked) {
                 // A tiny imperfection makes a bend of a branch point: short steps follow that, and long ones must not pass it.
                 let mut here = self.problem.clone();
+                let work = self.work;
                 self.problem.rest();
                 let options = PathOptions { leaves_crossings: false, ..self.options };
+                (self.work.crossing, self.work.crossings) = (None, 0);
                 match self.follow(0.0, &options) {
                     PathEnd::Complete => return Ok(()),
-                    PathEnd::Blocked { load, by: PathBlock::Work } => return Err(self.tired(load)),
+                    PathEnd::Blocked { .. } if self.problem.is_interrupted() => {
+                        return Err(Ending::Interrupted { load });
+                    }
                     _ => {
                         here.set_counts(self.problem.counts());
                         *self.problem = here;
+                        (self.work.crossing, self.work.crossings) = (work.crossing, work.crossings);
                     }
                 }
             }
-            match self.walk(load) {
+            match walked {
                 Walked::Complete => return Ok(()),
                 _ if self.problem.is_interrupted() => return Err(Ending::Interrupted { load }),
                 Walked::Beyond(load) => from = load,
@@ -258,6 +282,7 @@ impl Way<'_> {
 
     /// Along the path by pseudo-arclength, from a point near it at `from`, until it is well past what is in the way.
     fn walk(&mut self, from: f64) -> Walked {
+        self.imperfect = false;
         let finer = self.problem.mesh_accuracy().min(CAREFUL_MESH);
         self.problem.set_mesh_accuracy(finer);
         self.problem.weigh();
@@ -282,6 +307,7 @@ impl Way<'_> {
                 let _ = fold.point.restore(&mut by_load);
                 return Walked::Fold(fold.point.parameters[0]);
             }
+            self.imperfect |= specials.iter().any(|special| special.imperfection > SYMMETRIC);
             for met in specials.iter().filter(|special| special.point.parameters[0] < 1.0) {
                 self.work.crossing.get_or_insert(met.point.parameters[0]);
                 self.work.crossings += 1;
