@@ -158,7 +158,7 @@ axis = [0, 0, 1]
     Structure {
         name: "four-bar with two drives",
         code: 1,
-        says: "error: not converged, inconsistent: the loop does not close: at joint.c its two sides are 195.2934 mm and 0.0000 deg apart; free one of its joints, or correct the places and axes of those that the warning names",
+        says: "error: not converged, inconsistent: the loop does not close: at joint.c its two sides are 195.2934 mm and 0.0000 deg apart; free one of its joints, or correct the places and axes of joint.a, joint.b, joint.c, joint.d",
         model: r#"
 [body.crank]
 [body.coupler]
@@ -192,7 +192,7 @@ coordinate = 0.3
     Structure {
         name: "two welds that disagree",
         code: 1,
-        says: "error: not converged, inconsistent: the loop does not close: at joint.left its two sides are 20.0000 mm and 0.0000 deg apart; free one of its joints, or correct the places and axes of those that the warning names",
+        says: "error: not converged, inconsistent: the loop does not close: at joint.left its two sides are 20.0000 mm and 0.0000 deg apart; free one of its joints, or correct the places and axes of joint.left, joint.right",
         model: r#"
 [body.frame]
 [joint.left]
@@ -224,7 +224,7 @@ child = "frame"
     Structure {
         name: "hinge driven twice, differently",
         code: 1,
-        says: "error: not converged, inconsistent: the loop does not close: at joint.two its two sides are 0.0000 mm and 5.7296 deg apart; free one of its joints, or correct the places and axes of those that the warning names",
+        says: "error: not converged, inconsistent: the loop does not close: at joint.two its two sides are 0.0000 mm and 5.7296 deg apart; free one of its joints, or correct the places and axes of joint.one, joint.two",
         model: r#"
 [body.arm]
 [joint.one]
@@ -378,7 +378,7 @@ end = { body = "ground", hold = "clamp" }
     Structure {
         name: "slider on crossing ways",
         code: 1,
-        says: "error: not converged, inconsistent: the loop does not close: at joint.x its two sides are 100.0000 mm and 0.0000 deg apart; free one of its joints, or correct the places and axes of those that the warning names",
+        says: "error: not converged, inconsistent: the loop does not close: at joint.x its two sides are 100.0000 mm and 0.0000 deg apart; free one of its joints, or correct the places and axes of joint.x, joint.y",
         model: r#"
 [body.slider]
 [joint.x]

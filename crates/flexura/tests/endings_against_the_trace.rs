@@ -27,7 +27,7 @@ fn mechanism(seed: u64) -> String {
     let height = random.between(0.15, 0.6);
     let [left, right] = [random.between(-1.3, -0.7), random.between(0.7, 1.3)];
     let [k, l] = [random.between(5.0, 20.0), random.between(5.0, 20.0)];
-    let [x, y] = [random.between(-0.3, 0.3), -random.between(0.5, 3.0)];
+    let [x, y] = [random.between(-0.3, 0.3), -random.between(0.3, 2.5)];
     let (length, bending) = (random.between(0.5, 1.0), 10.0_f64.powf(random.between(-4.0, -0.7)));
     format!(
         r#"
@@ -36,7 +36,7 @@ format = 1
 f = 1
 [section.leaf]
 shape = "stiffness"
-EA = 1e4
+EA = 1
 GJ = 1
 EI2 = 1
 EI3 = {bending}
