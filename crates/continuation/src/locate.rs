@@ -305,7 +305,15 @@ fn finish<P: Problem>(
     let kernel = vec![value.along[0].clone()];
     if fold {
         let point = value.point.clone();
-        return Ok(Some(Special { crossing: None, point, kernel, branches: Vec::new(), part, imperfection: 0.0, start: None }));
+        return Ok(Some(Special {
+            crossing: None,
+            point,
+            kernel,
+            branches: Vec::new(),
+            part,
+            imperfection: 0.0,
+            start: None,
+        }));
     }
     // The step's change of μ if it left the path by its own length.
     let scale = (shape.xi_p.abs() + shape.xi_xi.abs()).max(1e-300) * square;

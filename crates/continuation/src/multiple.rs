@@ -82,7 +82,15 @@ pub(crate) fn locate_multiple<P: Problem>(
         tolerance: from.tolerance,
     };
     let crossing = Some(Crossing::Multiple(count));
-    Ok(Some(Special { crossing, point, kernel, branches: Vec::new(), part, imperfection: 0.0, start: Some(start) }))
+    Ok(Some(Special {
+        crossing,
+        point,
+        kernel,
+        branches: Vec::new(),
+        part,
+        imperfection: 0.0,
+        start: Some(start),
+    }))
 }
 
 /// Rows B and directions C: C spans what the tangent's inverse makes largest.

@@ -74,8 +74,13 @@ fn headline(summary: &Summary) -> String {
     } else {
         "error not estimated".to_owned()
     };
+    let residual = if summary.residual.is_finite() {
+        format!("residual {}", size(summary.residual))
+    } else {
+        "no residual there".to_owned()
+    };
     let mut text = format!("{name}: {state}\n");
-    text += &format!("  {}\n", styled(DIM, &format!("{work}, {error}, residual {}", size(summary.residual))));
+    text += &format!("  {}\n", styled(DIM, &format!("{work}, {error}, {residual}")));
     if summary.status != Status::Converged {
         text += if summary.load_fraction < 1.0 {
             "  what follows is how far it came, not the answer\n"

@@ -218,7 +218,7 @@ fn springs_without_stiffness_on_beams_change_nothing() {
     for (i, at) in [0.2, 0.5, 0.85].iter().enumerate() {
         for column in 0..2 {
             further += &format!(
-                "[spring.none_{i}_{column}]\nstiffness = 1e-9\nfrom = {{ body = \"ground\", at = [5, 5, 5] }}\nto = {{ beam = \"column_{column}\", at = {at} }}\n"
+                "[spring.none_{i}_{column}]\nstiffness = 1e-9\nfrom = {{ body = \"ground\", at = [5, 0, 5] }}\nto = {{ beam = \"column_{column}\", at = {at} }}\n"
             );
         }
     }

@@ -34,7 +34,7 @@ pub fn document(
         status: solution.status.word().to_owned(),
         reason: solution.reason.clone(),
         load_fraction: (load_fraction != 1.0).then_some(load_fraction),
-        residual: finite(solution.residual, || "residual".into())?,
+        residual: residual(solution)?,
         error_estimate: error_estimate(solution)?,
         newton_steps: solution.work.newton_steps,
         warnings: solution.warnings.clone(),
@@ -97,6 +97,14 @@ pub(crate) fn state_document(
         })?,
         energy: finite(solution.energy, || "energy".into())?,
     })
+}
+
+/// A study that broke off may stand where nothing can be evaluated, at the end of a boundary for instance.
+pub(crate) fn residual(solution: &Solution) -> Result<Option<f64>, OutputError> {
+    if solution.status != Status::Converged && !solution.residual.is_finite() {
+        return Ok(None);
+    }
+    finite(solution.residual, || "residual".into()).map(Some)
 }
 
 /// One of several equilibria of a model, for [`Document::equilibria`].

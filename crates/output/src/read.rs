@@ -63,7 +63,7 @@ pub fn solution_of(document: &Document, model: &Model) -> Result<Solution, ReadE
             .ok_or_else(|| ReadError::Broken(format!("there is no status `{}`", document.status)))?,
         reason: document.reason.clone(),
         load_fraction: document.load_fraction.unwrap_or(1.0),
-        residual: document.residual,
+        residual: document.residual.unwrap_or(f64::INFINITY),
         error_estimate: document.error_estimate.unwrap_or(f64::NAN),
         warnings: document.warnings.clone(),
         work: Work { newton_steps: document.newton_steps, ..Work::default() },

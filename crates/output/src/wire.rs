@@ -20,8 +20,8 @@ pub struct Document {
     /// Fraction of the full load that was reached, when that is not all of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_fraction: Option<f64>,
-    /// Largest scaled residual of the equilibrium equations.
-    pub residual: f64,
+    /// Largest scaled residual of the equilibrium equations; null where a solve broke off in a state that has none.
+    pub residual: Option<f64>,
     /// Estimated largest relative error; null when a study broke off before it could be estimated.
     pub error_estimate: Option<f64>,
     /// Newton steps taken.

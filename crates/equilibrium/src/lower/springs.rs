@@ -5,7 +5,7 @@ use super::{Carrier, Link, Lowered, Wrapping, length_text};
 use crate::error::ProblemError;
 use crate::scale::Scale;
 use flexura_mechanics::spring::{MonotoneTable, Obstacle, PathError, TensionLaw};
-use flexura_model::{ExponentialForm, Model, Spring, SpringLaw, Wrap};
+use flexura_model::{Attachment, ExponentialForm, Model, Mount, Spring, SpringLaw, Wrap};
 
 /// A rest length closer to the initial length than this part of it is the same.
 const SAME_LENGTH: f64 = 1e-9;
@@ -116,6 +116,16 @@ fn law_of(law: &SpringLaw, size: f64, scale: &Scale) -> TensionLaw {
             MonotoneTable::new(&rows).map_or(nothing, |table| TensionLaw::Table(table.into()))
         }
     }
+}
+
+/// The greatest initial distance of a spring's ends in a model without beams, m.
+pub(super) fn longest(model: &Model) -> f64 {
+    let at = |end: &Attachment| match end.mount {
+        Mount::Body(body) => model.bodies[body.0].pose.point(&end.point),
+        Mount::Ground | Mount::Beam(_) => end.point,
+    };
+    let distance = |spring: &Spring| (at(&spring.to) - at(&spring.from)).norm();
+    model.springs.iter().map(distance).fold(0.0, f64::max)
 }
 
 /// The force by which the springs of a model without beams say how large forces are in it, N: the stiffest, stretched by

@@ -6,8 +6,8 @@ use super::wire::{
 };
 use super::{TraceView, parameter_of};
 use crate::document::{
-    all_finite, error_estimate, finite, output_reasons, outputs, parameters, reasons_by_name, state_document,
-    work,
+    all_finite, error_estimate, finite, output_reasons, outputs, parameters, reasons_by_name, residual,
+    state_document, work,
 };
 use crate::wire::Value;
 use crate::{Named, OutputError};
@@ -202,7 +202,7 @@ pub fn buckling_document(
         parameter: buckling.parameter.map(|position| parameter_of(model, Some(position)).0.to_owned()),
         at: finite(buckling.at, || "at".into())?,
         modes: modes.collect::<Result<_, OutputError>>()?,
-        residual: finite(solution.residual, || "residual".into())?,
+        residual: residual(solution)?,
         error_estimate: error_estimate(solution)?,
         parameters: parameters(model)?,
         outputs: outputs(model, evaluation)?,

@@ -187,8 +187,8 @@ pub struct BucklingDocument {
     pub at: f64,
     /// The critical values, nearest first.
     pub modes: Vec<ModeDocument>,
-    /// Largest scaled residual of the equilibrium.
-    pub residual: f64,
+    /// Largest scaled residual of the equilibrium; null where a solve broke off in a state that has none.
+    pub residual: Option<f64>,
     /// Estimated largest relative error of the equilibrium.
     pub error_estimate: Option<f64>,
     /// The parameters at the equilibrium.

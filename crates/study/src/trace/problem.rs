@@ -205,7 +205,10 @@ impl Problem for Traced<'_> {
             Some(position) => self.laws.swap_remove(position).1,
             None => {
                 let model = self.model_at(values)?;
-                self.prepared.problem.neighbour_anew(&model).map_err(|error| Refusal::Parameter(error.message))?
+                self.prepared
+                    .problem
+                    .neighbour_anew(&model)
+                    .map_err(|error| Refusal::Parameter(error.message))?
             }
         };
         let old = self.prepared.problem.exchange(law);
