@@ -20,7 +20,10 @@ impl Equilibrium {
         let force = |node: &crate::lower::Node| -> f64 {
             node.loads.iter().map(|(_, load, _)| load.dead.force.norm() + load.follower.force.norm()).sum()
         };
-        let node = self.lowered.nodes.iter().position(|node| stiffest > 0.0 && !(force(node) <= most))?;
+        let node = self.lowered.nodes.iter().position(|node| {
+            // A number that is none is no sound load either.
+            stiffest > 0.0 && (force(node) > most || force(node).is_nan())
+        })?;
         Some(format!(
             "{}: the load is more than a hundred million times what bends the stiffest beam, EI/L²; check its unit and the sections' \
              dimensions",

@@ -87,7 +87,7 @@ impl Interval {
     /// sin(x + shift).
     pub fn sine(self, shift: f64) -> Self {
         let (a, b) = (self.lo + shift, self.hi + shift);
-        if !(b - a < TAU) {
+        if b - a >= TAU || (b - a).is_nan() {
             return Self { lo: -1.0, hi: 1.0 };
         }
         // Is there a place `at` + 2πk between the ends?

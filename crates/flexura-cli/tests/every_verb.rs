@@ -10,7 +10,7 @@ use flexura::modelfile::Document;
 
 /// A parameter that a study may vary, as text: its name, its value, and one that is a little larger.
 fn parameter(file: &str) -> Option<(String, String, String)> {
-    let model = Document::read(&models().join(file)).unwrap().model(&[]).unwrap();
+    let model = Document::read(models().join(file)).unwrap().model(&[]).unwrap();
     let is_unknown = |position: usize| model.unknowns.iter().any(|unknown| unknown.parameter == position);
     let (_, parameter) = model.parameters.iter().enumerate().find(|(position, _)| !is_unknown(*position))?;
     let text = |value: f64| format!("{value:e} {}", parameter.unit);

@@ -237,7 +237,7 @@ impl Draft {
         text.push_str(&self.tables);
         text.push_str(&format!("\n[output]\n{}\n", self.outputs.join("\n")));
         text.push_str("\n[study.answer]\nkind = \"solve\"\n\n[study.loads]\nkind = \"buckle\"\ncount = 2\n");
-        if seed % 4 == 0 {
+        if seed.is_multiple_of(4) {
             text.push_str(
                 "\n[study.path]\nkind = \"trace\"\nparameter = \"factor\"\nrange = [0, 1]\nsteps = 12\n",
             );

@@ -116,7 +116,7 @@ impl Held<'_> {
         let told = self.coordinates.and_then(|q| q.get(first..first + 3)).map(<[f64]>::to_vec);
         let driven = || -> Option<Vec<f64>> {
             let laws = self.law.coordinates.get(first..first + 3)?;
-            laws.iter().map(|law| driven_to(law)).collect()
+            laws.iter().map(driven_to).collect()
         };
         let told = told.or_else(driven);
         let v = told.map_or_else(|| log(&self.pose.rotation), |q| V::new(q[0], q[1], q[2]));

@@ -57,7 +57,7 @@ enum Kind {
         point: [f64; 2],
         angle: f64,
     },
-    Curve(Curve),
+    Curve(Box<Curve>),
 }
 
 #[derive(Clone, Debug)]
@@ -142,7 +142,8 @@ impl Contour {
             angles.push(angles[i] + angle_between(&ends[0], &ends[1]));
         }
         let range = (!closed).then_some([0.0, length]);
-        Ok(Self { kind: Kind::Curve(Curve { path, cells, angles, length, closed, reversed }), range })
+        let curve = Curve { path, cells, angles, length, closed, reversed };
+        Ok(Self { kind: Kind::Curve(Box::new(curve)), range })
     }
 
     /// Arc lengths of its ends; None without end.

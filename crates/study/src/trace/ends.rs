@@ -33,7 +33,7 @@ pub(crate) fn stalled(stall: &Stall) -> BranchEnd {
 
 /// A warning without its numbers.
 pub(super) fn kind(warning: &str) -> String {
-    warning.split(|c: char| c == ' ' || c == ',').filter(|word| !starts_as_number(word)).collect()
+    warning.split([' ', ',']).filter(|word| !starts_as_number(word)).collect()
 }
 
 fn starts_as_number(word: &str) -> bool {
