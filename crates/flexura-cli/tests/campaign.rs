@@ -31,6 +31,7 @@ const KNOWN: &[(u64, Kind)] = &[
     (58, Kind::WrongCause),
     (63, Kind::WrongCause),
     (110, Kind::WrongCause),
+    (119, Kind::WrongCause),
 ];
 
 #[test]

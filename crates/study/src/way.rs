@@ -52,9 +52,8 @@ const SAME: f64 = 1e-4;
 /// the state has gone, for that.
 const STEEP: f64 = 100.0;
 const GONE: f64 = 1e-3;
-/// Imperfection of a branch point beyond which no symmetry makes it: what is left where mirrored terms cancel is round-off, and
-/// errors of the mesh that are not mirrored.
-const SYMMETRIC: f64 = 1e-12;
+/// Imperfection of a branch point beyond which no symmetry makes it; where one does, mirrored terms cancel to the last digit.
+const SYMMETRIC: f64 = 1e-15;
 /// Step by which a direction is carried to another layout.
 const SHIFT: f64 = 1e-5;
 /// Load fraction so near the full one that it is the full one.

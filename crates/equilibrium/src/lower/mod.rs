@@ -313,8 +313,8 @@ fn scale_of(model: &Model, beams: &[BeamLaw]) -> Result<Scale, ProblemError> {
     let middle =
         model.bodies.iter().map(|b| b.pose.position).sum::<Vector3<f64>>() / model.bodies.len() as f64;
     let spread = model.bodies.iter().map(|b| (b.pose.position - middle).norm()).fold(0.0, f64::max);
-    // Of one body alone its springs tell the size.
-    let length = if spread > 0.0 { spread } else { springs::longest(model) };
+    // Of one body alone its springs tell how small it is; far anchors tell nothing.
+    let length = if spread > 0.0 { spread } else { springs::longest(model).min(1.0) };
     let length = if length > 0.0 { length } else { 1.0 };
     let mut force = model.loads.iter().map(|l| l.force.norm()).fold(0.0, f64::max);
     force = force.max(springs::largest_force(model, length));
