@@ -13,10 +13,8 @@ const SEEDS: u64 = 120;
 
 /// What is known to be wrong and not yet mended: none of it is an answer that is not true.
 const KNOWN: &[(u64, Kind)] = &[
-    // Paths that take long or are lost where springs go slack at once, or parts differ by many orders.
-    (8, Kind::Slow),
-    (38, Kind::Slow),
-    (106, Kind::Slow),
+    // Paths that are lost where springs go slack at once, or parts differ by many orders.
+    (106, Kind::TraceLost),
     (24, Kind::TraceLost),
     (34, Kind::TraceLost),
     (76, Kind::TraceLost),
@@ -51,13 +49,10 @@ fn random_mechanisms_and_damaged_files_are_answered_rightly_by_every_verb() {
         let (kind, words, detail) = (found.finding.kind, &found.finding.words, &found.finding.detail);
         format!("{kind} ({words}): {detail}\n  {}", found.file.display())
     };
-    // Where time is short another word may come first.
+    // Ten seconds are the bound of a release build, to which `cargo xtask campaign` holds; this one is several times slower.
     let unknown = |found: &&Found| {
-        let slow = |kind: Kind| matches!(kind, Kind::Slow | Kind::TraceLost);
-        !KNOWN.iter().any(|(seed, kind)| {
-            let same = found.finding.kind == *kind || slow(*kind) && slow(found.finding.kind);
-            found.seed == *seed && !found.is_damaged && same
-        })
+        let of = |(seed, kind): &(u64, Kind)| *seed == found.seed && *kind == found.finding.kind;
+        found.finding.kind != Kind::Slow && (found.is_damaged || !KNOWN.iter().any(of))
     };
     let all: Vec<String> = summary.found.iter().filter(unknown).map(told).collect();
     assert!(all.is_empty(), "{}\n\n{}", all.join("\n"), summary.table());
