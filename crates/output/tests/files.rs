@@ -195,7 +195,8 @@ fn a_picture_of_what_did_not_converge_says_so() {
 #[test]
 fn the_picture_of_a_plane_mechanism_has_one_view_and_names_what_it_shows() {
     let text = shape_svg(&model(), &solution());
-    for words in ["front view (xz)", "bent &amp; held", ">strip<", ">lever<", ">return<", ">spring<", ">1 N<"] {
+    for words in ["front view (xz)", "bent &amp; held", ">strip<", ">lever<", ">return<", ">spring<", ">1 N<"]
+    {
         assert!(text.contains(words), "{words}");
     }
     for words in ["top view (xy)", "side view (yz)", "isometric view"] {
