@@ -135,6 +135,7 @@ impl Follower<'_> {
                 self.keep(traced, walker, &mut point);
             }
             First::Beyond(reading) => {
+                self.shape(traced, &mut point);
                 // What lies between the branch point and the first point beyond it.
                 let passed = self.watched(traced, walker, &reading, &before, 1.0);
                 for (which, place) in passed {
@@ -567,8 +568,10 @@ impl Follower<'_> {
         if let Ok(place) = walker.between(traced, part) {
             let reading = self.read(traced, walker);
             let value = traced.axes[0].value(place.point.parameters[0]);
-            leg.points
-                .push(TracePoint { arc: walker.arc_at(part), ..regular(value, &place, reading, error) });
+            let mut point =
+                TracePoint { arc: walker.arc_at(part), ..regular(value, &place, reading, error) };
+            self.shape(traced, &mut point);
+            leg.points.push(point);
         }
     }
 
