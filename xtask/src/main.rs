@@ -25,8 +25,7 @@ mod viewer;
 
 use std::process::ExitCode;
 
-const USAGE: &str =
-    "usage: cargo xtask <test | generate | page | pictures | tidy | campaign [--seed S] [--count N] [--jobs J]>";
+const USAGE: &str = "usage: cargo xtask <test | generate | page | pictures | tidy | campaign [--seed S] [--count N] [--jobs J]>";
 
 fn main() -> ExitCode {
     let verb = std::env::args().nth(1).unwrap_or_default();

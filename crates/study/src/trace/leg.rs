@@ -568,8 +568,7 @@ impl Follower<'_> {
         if let Ok(place) = walker.between(traced, part) {
             let reading = self.read(traced, walker);
             let value = traced.axes[0].value(place.point.parameters[0]);
-            let mut point =
-                TracePoint { arc: walker.arc_at(part), ..regular(value, &place, reading, error) };
+            let mut point = TracePoint { arc: walker.arc_at(part), ..regular(value, &place, reading, error) };
             self.shape(traced, &mut point);
             leg.points.push(point);
         }
