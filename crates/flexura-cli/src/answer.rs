@@ -25,6 +25,8 @@ pub struct Task<'a> {
     pub folder: Option<PathBuf>,
     /// Where the page alone is wanted.
     pub page: Option<PathBuf>,
+    /// Is the solver to be in it?
+    pub is_live: bool,
     pub is_json: bool,
     pub is_quiet: bool,
 }
@@ -56,7 +58,17 @@ impl<'a> Task<'a> {
         if is_json || folder.is_some() || page.is_some() {
             options.shapes = SHAPE;
         }
-        Ok(Self { file, model, overrides, options, folder, page, is_json, is_quiet })
+        Ok(Self { file, model, overrides, options, folder, page, is_live: false, is_json, is_quiet })
+    }
+
+    /// Pages get the solver too, if that is wanted.
+    pub fn with_solver(self, is_live: bool) -> Result<Self, Failure> {
+        if is_live && self.folder.is_none() && self.page.is_none() {
+            return Err(Failure::Input(
+                "--live says what a page can do; say where to write it: --report FILE or -o DIR".to_owned(),
+            ));
+        }
+        Ok(Self { is_live, ..self })
     }
 
     /// Will anybody read the result document?
@@ -82,7 +94,7 @@ impl<'a> Task<'a> {
             Err(failure) => (None, Some(failure)),
         };
         let page = match (&self.page, &answer.document) {
-            (Some(path), Some(document)) => page::write(path, document).err(),
+            (Some(path), Some(document)) => page::write(path, document, self.is_live).err(),
             _ => None,
         };
         let unwritten = unwritten.or(page);
@@ -116,7 +128,7 @@ impl<'a> Task<'a> {
         let (Some(folder), Some(document)) = (folder, &answer.document) else { return Ok(None) };
         let names = answer.files.iter().map(|(name, _)| *name).chain([page::NAME]).collect();
         let text = json(&Written { document, files: names })?;
-        answer.files.push((page::NAME, page::of_text(&text)?));
+        answer.files.push((page::NAME, page::of_text(&text, self.is_live)?));
         files::replace_all(folder, &text, &answer.files)?;
         answer.growing.take().into_iter().for_each(Growing::finish);
         Ok(Some(text))

@@ -85,6 +85,9 @@ pub struct SolveArguments {
     /// Write one HTML page that shows the result, with all that it needs
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
+    /// Put the solver into the page too, which then solves again as things are moved, dragged or rewritten in it
+    #[arg(long)]
+    pub live: bool,
 }
 
 #[derive(Args)]
@@ -137,6 +140,9 @@ pub struct TraceArguments {
     /// Write one HTML page that shows the result, with all that it needs
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
+    /// Put the solver into the page too, which then solves again as things are moved, dragged or rewritten in it
+    #[arg(long)]
+    pub live: bool,
 }
 
 #[derive(Args)]
@@ -179,6 +185,9 @@ pub struct RunArguments {
     /// Write one HTML page that shows the result, with all that it needs
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
+    /// Put the solver into the page too, which then solves again as things are moved, dragged or rewritten in it
+    #[arg(long)]
+    pub live: bool,
 }
 
 #[derive(Args)]
@@ -220,11 +229,15 @@ pub struct ExamplesArguments {
 
 #[derive(Args)]
 pub struct ViewArguments {
-    /// The result document (result.json) of any study
-    pub result: PathBuf,
+    /// The result document (result.json) of any study; several with --live, to be chosen from in the page
+    #[arg(required = true)]
+    pub results: Vec<PathBuf>,
     /// Write the page into this file [default: beside the result, with the ending .html]
     #[arg(long, short = 'o', value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Put the solver into the page too, which then solves again as things are moved, dragged or rewritten in it
+    #[arg(long)]
+    pub live: bool,
     /// Only write the page
     #[arg(long)]
     pub no_open: bool,

@@ -16,7 +16,7 @@ use std::path::Path;
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
     let places = (arguments.output.as_deref(), arguments.report.as_deref());
-    let task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
+    let task = Task::new(&arguments.model, file, places, arguments.tolerance)?.with_solver(arguments.live)?;
     let studies = chosen(&task, arguments.study.as_deref())?;
     if !task.is_quiet {
         warn_about(&task.file, &[]);
@@ -67,7 +67,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
             }
         };
         if let Some(path) = &task.page {
-            files::replace(path, &page::of_text(&text)?)?;
+            files::replace(path, &page::of_text(&text, task.is_live)?)?;
         }
         if task.is_json {
             screen::print_table(&text)?;

@@ -81,7 +81,7 @@ fn deliver(
         let document = SweepDocument::new(file, table, samples);
         let text = json(&document.map_err(|error| Failure::Machine(error.to_string()))?)?;
         if let Some(path) = &arguments.report {
-            files::replace(path, &page::of_text(&text)?)?;
+            files::replace(path, &page::of_text(&text, false)?)?;
         }
         if arguments.model.json {
             screen::print_table(&text)?;

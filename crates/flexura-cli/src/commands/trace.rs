@@ -20,7 +20,7 @@ pub fn run(arguments: &TraceArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
     let file = file.with_study("trace", &flags(arguments)).map_err(|report| file_failure(&report))?;
     let places = (arguments.output.as_deref(), arguments.report.as_deref());
-    let task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
+    let task = Task::new(&arguments.model, file, places, arguments.tolerance)?.with_solver(arguments.live)?;
     match task.model.studies.last().map(|study| (&study.name, &study.kind)) {
         Some((name, StudyKind::Trace(trace))) => {
             task.deliver(study(&task, name, trace, task.folder.as_deref())?)
