@@ -10,7 +10,7 @@ use flexura_spatial::Vector3;
 use std::f64::consts::TAU;
 
 /// A full turn, with what people round it up to.
-const TURN: f64 = 6.2832;
+const TURN: f64 = 1.000_003 * TAU;
 /// Larger counts are mistakes.
 const MOST_COUNT: f64 = 1e9;
 
