@@ -12,7 +12,7 @@ use super::ritz;
 use crate::family::{SMALL, size_of};
 use crate::{Family, Options, Prepared, ProblemError};
 use flexura_equilibrium::{Rate, Variation};
-use flexura_model::{BuckleStudy, Model, StudyKind};
+use flexura_model::{BuckleStudy, Joint, Model, StudyKind};
 use flexura_nonlinear::{Breakdown, NewtonEnd, NewtonOptions, System, converge};
 use flexura_solution::{BeamSample, Buckling, BucklingMode, Direction, Solution, Status};
 use flexura_spatial::{Twist, Vector3};
@@ -156,10 +156,26 @@ pub fn buckle(
             "{unsure} critical values are left out, for they change by more than a tenth when beams are cut into more stretches; trace the \
              parameter instead"
         ));
+    } else if modes.is_empty() {
+        solution.warnings.push(nothing(model));
     } else if modes.len() < wanted {
         solution.warnings.push(format!("only {} critical values were found", modes.len()));
     }
     Ok(Buckling { parameter: study.parameter, at: study.at, solution, modes })
+}
+
+/// Why a mechanism has no critical value.
+fn nothing(model: &Model) -> String {
+    let sprung = |joint: &Joint| {
+        let mut laws = joint.law.coordinates.iter();
+        laws.any(|law| law.stiffness != 0.0 || law.limits.is_some_and(|limits| limits.stiffness.is_some()))
+    };
+    if model.beams.is_empty() && model.springs.is_empty() && !model.joints.iter().any(sprung) {
+        "nothing in it can buckle: it has no beam, no spring and no joint with a stiffness".to_string()
+    } else {
+        "no critical value was found: along the load as it is linearised no stiffness was seen to change"
+            .to_string()
+    }
 }
 
 /// How far beams are bent: the largest change of curvature times length.

@@ -54,6 +54,10 @@ pub(crate) fn smallest(operator: &mut dyn FnMut(&mut [f64]), n: usize, count: us
         images.push(image);
     }
     let m = space.len();
+    if m == 0 {
+        // Nothing is there to be moved, or the operator forgets everything.
+        return Vec::new();
+    }
     let small = DMatrix::from_fn(m, m, |i, j| space[i].dot(&images[j]));
     let eigenvalues = small.complex_eigenvalues();
     let largest = eigenvalues.iter().map(|e| e.re.hypot(e.im)).fold(0.0, f64::max);
@@ -94,6 +98,13 @@ pub(crate) fn smallest(operator: &mut dyn FnMut(&mut [f64]), n: usize, count: us
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_operator_that_forgets_everything_has_no_eigenvalues() {
+        for n in [0, 7] {
+            assert!(smallest(&mut |x: &mut [f64]| x.fill(0.0), n, 3).is_empty(), "{n}");
+        }
+    }
 
     #[test]
     fn finds_the_largest_eigenvalues_double_ones_twice() {
