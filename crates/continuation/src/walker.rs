@@ -111,6 +111,11 @@ const LATE: f64 = 1e-4;
 /// Tries to come level with a point that a path seems to pass, and how far beside it that may be, as a part of the step.
 const ALIGNED: usize = 6;
 const SAME_PLACE: f64 = 1e-4;
+/// Steps below this part of the longest are led round corners; how far beside the old direction the new one may lie, as a part of
+/// the step, and how well such a point is found.
+const CORNER: f64 = 1e-4;
+const BESIDE: f64 = 3.0;
+const ROUND: f64 = 1e-3;
 
 impl Walker {
     /// Starts at the present solution, towards larger (`1.0`) or smaller (`-1.0`) parameters.
@@ -274,7 +279,9 @@ impl Walker {
                 return Advance::Stalled(parameter_trouble.map_or(Stall::Short, Stall::Parameter));
             }
             let width = self.width;
-            match self.try_step(problem, width) {
+            let at_corner = width < CORNER * cap;
+            let tried = if at_corner { self.round(problem, width) } else { self.try_step(problem, width) };
+            match tried {
                 Ok((mut place, growth)) => {
                     if self.may_hold(&place) && self.exactly(problem, &mut place).is_err() {
                         self.width = 0.7 * width;
@@ -284,7 +291,8 @@ impl Walker {
                     match self.passed(problem, &self.here, &place, (&self.here, &place), passed::DEPTH) {
                         Ok(specials) => {
                             let left = std::mem::replace(&mut self.here, place);
-                            self.before = Some((left.tangent.clone(), width));
+                            // The direction has turned at once, and does not go on turning.
+                            self.before = (!at_corner).then(|| (left.tangent.clone(), width));
                             self.last = Some((left, width));
                             self.width = (width * growth).min(cap);
                             self.work.taken += 1;
@@ -419,6 +427,42 @@ impl Walker {
         }
         let _ = self.here.point.restore(problem);
         aside <= SAME_PLACE * width.max(1e-3)
+    }
+
+    /// A step so short that what the path still turns by in it is a corner, where a spring goes slack or a foundation begins to
+    /// push: the point beyond is found with the tangent of the other side. A path that turns back there is not led round.
+    fn round<P: Problem>(&mut self, problem: &mut P, width: f64) -> Result<(Place, f64), (Miss, f64)> {
+        const SHORTER: f64 = 0.4;
+        let here = &self.here;
+        here.point.restore(problem).map_err(|refusal| (Miss::from(refusal), SHORTER))?;
+        self.is_tangent_here = false;
+        let mut step = here.tangent.clone();
+        step.scale(width);
+        let reach = step.size(problem.system());
+        problem.system().retract(&step.step);
+        let [first, second] = here.point.parameters;
+        let found = problem.set_parameters([first + step.parameter, second]).map_err(Miss::from);
+        let limits = Limits {
+            tolerance: self.options.tolerance.min(ROUND * reach),
+            farthest: BESIDE,
+            reach,
+            renewed_below: 0.0,
+        };
+        found.and_then(|()| correct(problem, &here.tangent, None, &limits)).map_err(|m| (m, SHORTER))?;
+        problem.system().linearise().map_err(|b| (b.into(), SHORTER))?;
+        let (slope, mut tangent) = direction_here(problem).map_err(|refusal| (refusal.into(), SHORTER))?;
+        let positive = problem.system().orientation();
+        // The sign of the determinant and that of the parameter's rate go together along a path.
+        let wanted = if positive == here.positive { here.tangent.parameter } else { -here.tangent.parameter };
+        if tangent.parameter * wanted < 0.0 {
+            tangent.scale(-1.0);
+        }
+        let along = tangent.product(problem.system(), &here.tangent.step, here.tangent.parameter);
+        if positive != here.positive || along <= 0.0 {
+            return Err((Miss::NotContracting, SHORTER));
+        }
+        let (point, arc) = (Point::here(problem), here.arc + width);
+        Ok((Place { point, positive, index: problem.index(), arc, tangent, slope }, 2.0))
     }
 
     fn try_step<P: Problem>(&mut self, problem: &mut P, width: f64) -> Result<(Place, f64), (Miss, f64)> {

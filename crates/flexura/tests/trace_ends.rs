@@ -49,3 +49,37 @@ fn a_contact_that_pulls_is_told_along_a_trace() {
     let found = traced(&format!("{text}range = [-2, 1.2]\n"), &[], 1e-8);
     assert!(found.trace.warnings.is_empty(), "{:?}", found.trace.warnings);
 }
+
+/// A slider on a spring of 1 N/m that a second one of 50 N/m catches after 0.2 m: x = f up to there, and x = (f + 10)/51 beyond.
+#[test]
+fn a_path_is_led_round_the_corner_where_a_spring_becomes_taut() {
+    let text = "format = 1\n[parameter]\nf = 0\n[body.b]\n[joint.way]\nkind = \"prismatic\"\nparent = \"ground\"\nchild = \"b\"\naxis = [1, 0, 0]\n\
+         effort = \"f\"\nstiffness = 1\n\
+         [spring.rope]\nfrom = { body = \"ground\", at = [-1, 0, 0] }\nto = { body = \"b\" }\nstiffness = 50\nrest_length = 1.2\ntension_only = true\n\
+         [study.path]\nkind = \"trace\"\nparameter = \"f\"\nrange = [0, 2]\n[output]\nx = \"joint.way.coordinate\"\n";
+    let found = run(text, &[], 1e-8);
+    assert_eq!(found.trace.status, Status::Converged, "{:?}", found.trace.reason);
+    let points = &found.trace.branches[0].points;
+    for point in points {
+        let x = point.solution.as_ref().map(|solution| solution.bodies[0].position.x);
+        let f = point.parameter;
+        let wanted = if f < 0.2 { f } else { (f + 10.0) / 51.0 };
+        assert!(x.is_none_or(|x| (x - wanted).abs() < 1e-7), "{f}: {x:?}");
+    }
+    assert!((points.last().unwrap().parameter - 2.0).abs() < 1e-12);
+    assert!(points.len() < 120, "{}", points.len());
+}
+
+/// Beyond the corner there is no equilibrium near: `solve` and the path say the same.
+#[test]
+fn a_path_that_turns_back_where_a_spring_goes_slack_says_so() {
+    let text = include_str!("from_rest/spring_goes_slack.toml");
+    let text = format!("{text}\n[study.path]\nkind = \"trace\"\nparameter = \"f\"\nrange = [0, 1]\n");
+    let found = run(&text, &[], 1e-8);
+    let BranchEnd::Stalled(why) = &found.trace.branches[0].ends[1] else {
+        panic!("{:?}", found.trace.branches[0].ends)
+    };
+    assert!(why.contains("spring.k0 is between taut and slack"), "{why}");
+    let last = found.trace.branches[0].points.last().unwrap().parameter;
+    assert!((last - 0.0423).abs() < 1e-4, "{last}");
+}
