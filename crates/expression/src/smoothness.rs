@@ -26,7 +26,7 @@ pub struct Variation {
 
 impl Variation {
     /// By how much the values may go up and down without that a dozen places between the two show it: zero where that is ruled
-    /// out. What is narrower than the distance of these places would leave a polynomial further than [`RESOLVED`] allows.
+    /// out. What is narrower than the distance of these places would leave a polynomial further than `RESOLVED` allows.
     pub fn hidden(&self) -> f64 {
         self.unless_resolved(self.values[1] - self.values[0])
     }
