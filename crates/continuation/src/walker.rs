@@ -31,6 +31,8 @@ pub struct WalkOptions {
     pub least_cosine: f64,
     /// Cosine that is aimed at.
     pub aimed_cosine: f64,
+    /// Are paths led round corners, at which their direction turns at once?
+    pub rounds_corners: bool,
 }
 
 impl Default for WalkOptions {
@@ -44,6 +46,7 @@ impl Default for WalkOptions {
             aim: 0.05,
             least_cosine: 0.75,
             aimed_cosine: 0.94,
+            rounds_corners: true,
         }
     }
 }
@@ -104,6 +107,8 @@ pub struct Walker {
     last: Option<(Place, f64)>,
     is_tangent_here: bool,
     work: WalkWork,
+    /// Steps round corners since the path was clear.
+    corners: usize,
 }
 
 /// Size of a correction below which a step's tangent is made anew: what is left to correct then is nothing to the tangent.
@@ -116,6 +121,9 @@ const SAME_PLACE: f64 = 1e-4;
 const CORNER: f64 = 1e-4;
 const BESIDE: f64 = 3.0;
 const ROUND: f64 = 1e-3;
+/// Such steps before the path is clear again, with steps of this part of the longest, from which it is not corners that keep it.
+const CROWDED: usize = 8;
+const CLEAR: f64 = 1e-2;
 
 impl Walker {
     /// Starts at the present solution, towards larger (`1.0`) or smaller (`-1.0`) parameters.
@@ -149,6 +157,7 @@ impl Walker {
             last: None,
             is_tangent_here: true,
             work: WalkWork::default(),
+            corners: 0,
         })
     }
 
@@ -182,6 +191,7 @@ impl Walker {
                         last: Some((start, width)),
                         is_tangent_here: true,
                         work: WalkWork { taken: 1, refused: 0 },
+                        corners: 0,
                     });
                 }
                 Err(Miss::Refused(Refusal::Parameter(why))) => worst = Stall::Parameter(why),
@@ -279,7 +289,7 @@ impl Walker {
                 return Advance::Stalled(parameter_trouble.map_or(Stall::Short, Stall::Parameter));
             }
             let width = self.width;
-            let at_corner = width < CORNER * cap;
+            let at_corner = self.options.rounds_corners && width < CORNER * cap && self.corners < CROWDED;
             let tried = if at_corner { self.round(problem, width) } else { self.try_step(problem, width) };
             match tried {
                 Ok((mut place, growth)) => {
@@ -291,6 +301,11 @@ impl Walker {
                     match self.passed(problem, &self.here, &place, (&self.here, &place), passed::DEPTH) {
                         Ok(specials) => {
                             let left = std::mem::replace(&mut self.here, place);
+                            if at_corner {
+                                self.corners += 1;
+                            } else if width > CLEAR * cap {
+                                self.corners = 0;
+                            }
                             // The direction has turned at once, and does not go on turning.
                             self.before = (!at_corner).then(|| (left.tangent.clone(), width));
                             self.last = Some((left, width));

@@ -38,6 +38,8 @@ const WALK: WalkOptions = WalkOptions {
     aim: 0.05,
     least_cosine: 0.75,
     aimed_cosine: 0.94,
+    // Short load steps do that better.
+    rounds_corners: false,
 };
 /// Steps of the walker without anything special after which it hands back, and most of them.
 const CLEAN: usize = 6;
