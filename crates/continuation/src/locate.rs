@@ -316,11 +316,12 @@ fn finish<P: Problem>(
         }));
     }
     // The step's change of μ if it left the path by its own length.
-    let scale = (shape.xi_p.abs() + shape.xi_xi.abs()).max(1e-300) * square;
+    let bends = (shape.xi_p.abs() + shape.xi_xi.abs()).max(1e-300);
+    let scale = bends * square;
     if value.mu.abs() > NOTHING * scale.max(1e-9) {
         return Ok(None);
     }
-    let imperfection = value.mu.abs() / (shape.xi_p.abs() + shape.xi_xi.abs()).max(1e-300);
+    let imperfection = value.mu.abs() / bends;
     let Some(directions) = directions(&shape) else { return Ok(None) };
     let mut tangents = tangents(system, value, &directions);
     // The present branch's own direction is the one nearest to the step.

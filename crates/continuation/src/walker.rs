@@ -5,6 +5,7 @@
 //! the parameter's rate and the count of unstable directions tell what was passed; what cannot be told apart is looked at
 //! again in shorter steps (`passed`).
 
+mod corner;
 mod passed;
 
 use crate::corrector::{Limits, Miss, between, correct, settle};
@@ -113,15 +114,9 @@ pub struct Walker {
 
 /// Size of a correction below which a step's tangent is made anew: what is left to correct then is nothing to the tangent.
 const LATE: f64 = 1e-4;
-/// Tries to come level with a point that a path seems to pass, and how far beside it that may be, as a part of the step.
-const ALIGNED: usize = 6;
-const SAME_PLACE: f64 = 1e-4;
-/// Steps below this part of the longest are led round corners; how far beside the old direction the new one may lie, as a part of
-/// the step, and how well such a point is found.
+/// Steps below this part of the longest are led round corners (`corner.rs`); such steps before the path is clear again, from which it is
+/// not corners that keep it; and the part of the longest from which a step shows the path clear.
 const CORNER: f64 = 1e-4;
-const BESIDE: f64 = 3.0;
-const ROUND: f64 = 1e-3;
-/// Such steps before the path is clear again, with steps of this part of the longest, from which it is not corners that keep it.
 const CROWDED: usize = 8;
 const CLEAR: f64 = 1e-2;
 
@@ -421,63 +416,6 @@ impl Walker {
         let (whole, part) = (*width, along / width);
         let seems = same_way && along > 0.0 && along <= 1.05 * width && aside <= 0.25 * width;
         seems && self.goes_through(problem, point, part, whole)
-    }
-
-    /// Is `point` on the path, and not just beside it, near `part` of the last step? A body that has turned once round may stand
-    /// as it stood before, but under another load.
-    fn goes_through<P: Problem>(&mut self, problem: &mut P, point: &Point, part: f64, width: f64) -> bool {
-        let mut part = part;
-        let mut aside = f64::INFINITY;
-        for _ in 0..ALIGNED {
-            let Ok(place) = self.between(problem, part) else { break };
-            let to = between(problem, &place.point, point);
-            let system = problem.system();
-            let along = place.tangent.product(system, &to.step, to.parameter);
-            let square = to.product(system, &to.step, to.parameter);
-            aside = (square - along * along).max(0.0).sqrt();
-            if along.abs() <= SAME_PLACE * width {
-                break;
-            }
-            part += along / width;
-        }
-        let _ = self.here.point.restore(problem);
-        aside <= SAME_PLACE * width.max(1e-3)
-    }
-
-    /// A step so short that what the path still turns by in it is a corner, where a spring goes slack or a foundation begins to
-    /// push: the point beyond is found with the tangent of the other side. A path that turns back there is not led round.
-    fn round<P: Problem>(&mut self, problem: &mut P, width: f64) -> Result<(Place, f64), (Miss, f64)> {
-        const SHORTER: f64 = 0.4;
-        let here = &self.here;
-        here.point.restore(problem).map_err(|refusal| (Miss::from(refusal), SHORTER))?;
-        self.is_tangent_here = false;
-        let mut step = here.tangent.clone();
-        step.scale(width);
-        let reach = step.size(problem.system());
-        problem.system().retract(&step.step);
-        let [first, second] = here.point.parameters;
-        let found = problem.set_parameters([first + step.parameter, second]).map_err(Miss::from);
-        let limits = Limits {
-            tolerance: self.options.tolerance.min(ROUND * reach),
-            farthest: BESIDE,
-            reach,
-            renewed_below: 0.0,
-        };
-        found.and_then(|()| correct(problem, &here.tangent, None, &limits)).map_err(|m| (m, SHORTER))?;
-        problem.system().linearise().map_err(|b| (b.into(), SHORTER))?;
-        let (slope, mut tangent) = direction_here(problem).map_err(|refusal| (refusal.into(), SHORTER))?;
-        let positive = problem.system().orientation();
-        // The sign of the determinant and that of the parameter's rate go together along a path.
-        let wanted = if positive == here.positive { here.tangent.parameter } else { -here.tangent.parameter };
-        if tangent.parameter * wanted < 0.0 {
-            tangent.scale(-1.0);
-        }
-        let along = tangent.product(problem.system(), &here.tangent.step, here.tangent.parameter);
-        if positive != here.positive || along <= 0.0 {
-            return Err((Miss::NotContracting, SHORTER));
-        }
-        let (point, arc) = (Point::here(problem), here.arc + width);
-        Ok((Place { point, positive, index: problem.index(), arc, tangent, slope }, 2.0))
     }
 
     fn try_step<P: Problem>(&mut self, problem: &mut P, width: f64) -> Result<(Place, f64), (Miss, f64)> {
