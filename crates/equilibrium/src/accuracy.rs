@@ -74,7 +74,7 @@ impl Equilibrium {
         // The first mesh may err by what halving its steps will mend, and Newton by as much: the correction on
         // the halved mesh takes both away.
         self.restep(tolerance * GAIN, false);
-        let law_error = self.meshes.iter().map(|mesh| mesh.law_error).fold(0.0, f64::max);
+        let law_error = self.meshes.iter().map(|mesh| mesh.cut.law_error).fold(0.0, f64::max);
         self.set_weights(true);
         let mut step = vec![0.0; self.unknowns()];
         let mut best = f64::INFINITY;

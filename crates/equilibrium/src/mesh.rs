@@ -32,6 +32,13 @@ pub(crate) struct SpanMesh {
     pub segments: Vec<Vec<Stretch>>,
     /// What it was made for.
     made_for: Course,
+    /// What it is worth.
+    pub cut: Cut,
+}
+
+/// What the cutting of a span came to.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Cut {
     /// Error that the law's integrals are left with when all steps are halved.
     pub law_error: f64,
     /// Would it need more steps than are made?
@@ -110,9 +117,7 @@ pub(crate) struct Cutter<'a> {
 #[derive(Default)]
 struct Plan {
     parts: Vec<Part>,
-    law_error: f64,
-    is_overfull: bool,
-    wanted: usize,
+    cut: Cut,
 }
 
 impl Cutter<'_> {
@@ -163,9 +168,9 @@ impl Cutter<'_> {
             }
             steps += plan.parts[known..].iter().map(|part| part.steps).sum::<usize>();
         }
-        plan.is_overfull |= steps >= MOST_STEPS;
-        plan.wanted = steps;
-        if plan.is_overfull {
+        plan.cut.is_overfull |= steps >= MOST_STEPS;
+        plan.cut.wanted = steps;
+        if plan.cut.is_overfull {
             // Nothing is worked out on it; it need not take memory.
             plan.parts.iter_mut().for_each(|part| part.steps = 1);
         }
@@ -178,7 +183,7 @@ impl Cutter<'_> {
         let winding = self.winding(whole);
         let (mut open, mut made) = (vec![whole], 0);
         while let Some([a, b]) = open.pop() {
-            if plan.is_overfull {
+            if plan.cut.is_overfull {
                 // What is left takes no more looks.
                 let look = plan.parts.last().map_or_else(|| self.law.even_look(whole), |last| last.look);
                 plan.parts.push(Part { s: [a, whole[1]], steps: 1, look });
@@ -190,7 +195,7 @@ impl Cutter<'_> {
             let steps = level.steps(&look, winding, self.nondimensional(s), self.accuracy);
             let narrow = b - a <= NARROWEST * self.law.length;
             let full = made + open.len() >= MOST_PARTS;
-            plan.is_overfull |= full || narrow && steps >= MOST_STEPS;
+            plan.cut.is_overfull |= full || narrow && steps >= MOST_STEPS;
             if !(narrow || full) && (steps > MOST_AT_ONCE || !self.takes_in(s, &look, &level, measure, plan))
             {
                 open.push([middle, b]);
@@ -232,7 +237,7 @@ impl Cutter<'_> {
         if left > LEFT * allowed / GAIN {
             return false;
         }
-        plan.law_error += left;
+        plan.cut.law_error += left;
         true
     }
 
@@ -312,7 +317,7 @@ impl Cutter<'_> {
         let plan = self.plan(&places);
         let mut mesh = SpanMesh::assemble(self.law, self.span, ends, &plan.parts);
         mesh.made_for = self.course.clone();
-        (mesh.law_error, mesh.is_overfull, mesh.wanted) = (plan.law_error, plan.is_overfull, plan.wanted);
+        mesh.cut = plan.cut;
         mesh
     }
 
@@ -333,16 +338,16 @@ impl Cutter<'_> {
 
     /// Cuts the same segments anew; with `grow` nothing gets coarser.
     pub fn restep(&mut self, mesh: &mut SpanMesh, grow: bool) {
-        let places = self.places(&mesh.ends());
-        let plan = self.plan(&places);
-        if !self.fits(&plan, mesh) {
+        let ends = mesh.ends();
+        let even = self.span.is_even(self.law).then(|| self.plan(&self.places(&ends)));
+        let Some(plan) = even.filter(|plan| self.fits(plan, mesh)) else {
             let larger = self.course.max(&mesh.made_for);
             let course = if grow { &larger } else { self.course };
             let mut cutter = Cutter { course, looks: &mut *self.looks, ..*self };
-            *mesh = cutter.build_between(&mesh.ends());
+            *mesh = cutter.build_between(&ends);
             return;
-        }
-        (mesh.is_overfull, mesh.wanted) = (plan.is_overfull, plan.wanted);
+        };
+        mesh.cut = plan.cut;
         for (stretch, part) in mesh.segments.iter_mut().flatten().zip(&plan.parts) {
             let wanted = if grow { part.steps.max(stretch.piece.steps) } else { part.steps };
             stretch.restep(self.law, self.span, wanted);
@@ -411,8 +416,7 @@ impl SpanMesh {
             }
         }
         let first_jumps = jumps_at(first);
-        let (made_for, law_error, is_overfull, wanted) = (Course::default(), 0.0, false, 0);
-        Self { first_jumps, segments, made_for, law_error, is_overfull, wanted }
+        Self { first_jumps, segments, made_for: Course::default(), cut: Cut::default() }
     }
 
     /// The same mesh for the law of a neighbouring model: what lies between two places where something happens goes along with
@@ -445,8 +449,7 @@ impl SpanMesh {
         let mesh = Self::assemble(to.0, to.1, &ends, &parts);
         let same = mesh.stretches().zip(self.stretches()).all(|(a, b)| a.jumps.len() == b.jumps.len());
         let made_for = self.made_for.clone();
-        let Self { law_error, is_overfull, wanted, .. } = *self;
-        same.then_some(Self { made_for, law_error, is_overfull, wanted, ..mesh })
+        same.then_some(Self { made_for, cut: self.cut, ..mesh })
     }
 
     pub fn stretches(&self) -> impl Iterator<Item = &Stretch> {

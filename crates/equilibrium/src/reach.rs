@@ -47,7 +47,7 @@ impl Equilibrium {
 
     /// Is a mesh cut off, so that no result on it means anything?
     pub(crate) fn is_overfull(&self) -> bool {
-        self.meshes.iter().any(|mesh| mesh.is_overfull)
+        self.meshes.iter().any(|mesh| mesh.cut.is_overfull)
     }
 
     fn span_beyond_reach(&self, index: usize) -> Option<String> {
@@ -62,7 +62,7 @@ impl Equilibrium {
                  section's dimensions"
             ));
         }
-        if !mesh.is_overfull {
+        if !mesh.cut.is_overfull {
             return None;
         }
         let length = |stretch: &Stretch| (stretch.s[1] - stretch.s[0]) / law.scale.length;
@@ -73,7 +73,7 @@ impl Equilibrium {
                  steps; check its numbers"
             ));
         }
-        if mesh.wanted >= MOST_STEPS {
+        if mesh.cut.wanted >= MOST_STEPS {
             return Some(format!(
                 "beam.{name}: it is loaded, or bedded, so hard for its stiffness that more than {MOST_STEPS} integration steps would be \
                  needed along it; check the units and the section's dimensions"
