@@ -62,6 +62,9 @@ pub fn center_of_compliance(compliance: &Matrix6<f64>) -> Option<Vector3<f64>> {
     let d: Matrix3<f64> = compliance.fixed_view::<3, 3>(3, 3).into();
     let matrix = Matrix3::identity() * d.trace() - d;
     let axial = Vector3::new(b[(2, 1)] - b[(1, 2)], b[(0, 2)] - b[(2, 0)], b[(1, 0)] - b[(0, 1)]);
+    if !matrix.iter().all(|value| value.is_finite()) {
+        return None;
+    }
     let svd = matrix.svd(true, true);
     // In a planar mechanism nothing is said about the direction across the plane: the solution of least norm.
     let largest = svd.singular_values.max();
