@@ -5,11 +5,13 @@
 //! - `walker`: step by step along a path, with what was passed;
 //! - `reduced`: the surface of two numbers on which a fold or branch point lies;
 //! - `locate`: folds and simple branch points on it, and the directions of the branches;
-//! - `multiple`: points where several directions become critical at once, and `spread`: what leaves them;
+//! - `multiple`: points where several directions become critical at once; `algebraic`: the equations of what leaves them; `spread`: the
+//!   branches that do;
 //! - `critical`: folds and branch points followed in a second parameter.
 //!
 //! Nothing here knows of beams.
 
+mod algebraic;
 mod corrector;
 mod critical;
 mod locate;
@@ -25,5 +27,5 @@ pub use corrector::between;
 pub use critical::{CriticalEnd, CriticalWalker};
 pub use locate::{Crossing, Special, sharpen};
 pub use problem::{Parameters, Point, Problem, Refusal, Tangent, slope};
-pub use spread::{Spread, spread};
+pub use spread::{Leaving, Spread, spread};
 pub use walker::{Advance, Place, Stall, WalkOptions, WalkWork, Walker};

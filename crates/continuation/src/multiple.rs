@@ -11,6 +11,9 @@ use flexura_nonlinear::{Liftable, System};
 /// Points of the polynomial, as parts of the bracket; none near its middle.
 const NODES: [f64; 6] = [0.0, 0.12, 0.3, 0.7, 0.88, 1.0];
 
+/// Rows that are tried.
+const TRIED: usize = 96;
+
 /// A path's point, its tangent and slope, from which points of the bracket are reached.
 pub(crate) struct From<'a> {
     pub point: &'a Point,
@@ -27,27 +30,23 @@ pub(crate) fn locate_multiple<P: Problem>(
     count: usize,
 ) -> Result<Option<Special>, Miss> {
     let n = problem.system().unknowns();
+    let mut sides = Vec::with_capacity(2);
+    for node in [NODES[0], NODES[NODES.len() - 1]] {
+        go(problem, from, node)?;
+        sides.push(images(problem.system()));
+    }
+    let kernel = turned(problem.system(), &sides, count);
+    let rows = heard(problem.system(), &kernel);
+    if rows.len() < count {
+        return Ok(None);
+    }
     let mut points = Vec::with_capacity(NODES.len());
-    let mut bases: Option<(Vec<usize>, Vec<Vec<f64>>)> = None;
     let mut values: Vec<Vec<f64>> = Vec::new();
     for node in NODES {
-        from.point.restore(problem)?;
-        let step: Vec<f64> = from.tangent.step.iter().map(|t| t * node * from.length).collect();
-        problem.system().retract(&step);
-        let parameters = from.point.parameters;
-        problem
-            .set_parameters([parameters[0] + node * from.length * from.tangent.parameter, parameters[1]])?;
-        let limits =
-            Limits { tolerance: from.tolerance, farthest: 1e3, reach: from.length, renewed_below: 0.0 };
-        correct(problem, from.tangent, None, &limits)?;
-        problem.system().linearise()?;
-        if bases.is_none() {
-            bases = Some(choose(problem, count, n));
-        }
-        let Some((rows, kernel)) = &bases else { return Ok(None) };
+        go(problem, from, node)?;
         let mut columns = Vec::with_capacity(count);
         let mut step = vec![0.0; n];
-        for &row in rows {
+        for &row in &rows {
             problem.system().unit_step(row, &mut step);
             columns.push(kernel.iter().map(|c| problem.system().product(c, &step)).collect::<Vec<f64>>());
         }
@@ -74,7 +73,6 @@ pub(crate) fn locate_multiple<P: Problem>(
     problem.system().retract(&step);
     problem.set_parameters([parameter, points[0].parameters[1]])?;
     let point = Point::here(problem);
-    let kernel = bases.map(|(_, kernel)| kernel).unwrap_or_default();
     let start = Start {
         point: from.point.clone(),
         tangent: from.tangent.clone(),
@@ -93,37 +91,92 @@ pub(crate) fn locate_multiple<P: Problem>(
     }))
 }
 
-/// Rows B and directions C: C spans what the tangent's inverse makes largest.
-fn choose<P: Problem>(problem: &mut P, count: usize, n: usize) -> (Vec<usize>, Vec<Vec<f64>>) {
-    let system = problem.system();
+/// Goes to the path's point at a part of the bracket, with its tangent.
+fn go<P: Problem>(problem: &mut P, from: &From<'_>, part: f64) -> Result<(), Miss> {
+    from.point.restore(problem)?;
+    let step: Vec<f64> = from.tangent.step.iter().map(|t| t * part * from.length).collect();
+    problem.system().retract(&step);
+    let parameters = from.point.parameters;
+    problem.set_parameters([parameters[0] + part * from.length * from.tangent.parameter, parameters[1]])?;
+    let limits = Limits { tolerance: from.tolerance, farthest: 1e3, reach: from.length, renewed_below: 0.0 };
+    correct(problem, from.tangent, None, &limits)?;
+    Ok(problem.system().linearise()?)
+}
+
+/// The solutions of single rows.
+fn images<S: Liftable>(system: &mut S) -> Vec<(usize, Vec<f64>)> {
     let rows = system.lift_rows();
-    let stride = rows.len().div_ceil(96).max(1);
-    let mut images: Vec<(usize, Vec<f64>)> = Vec::new();
-    for &row in rows.iter().step_by(stride) {
-        let mut step = vec![0.0; n];
+    let image = |row: usize| {
+        let mut step = vec![0.0; system.unknowns()];
         system.unit_step(row, &mut step);
-        images.push((row, step));
-    }
+        (row, step)
+    };
+    rows.iter().step_by(rows.len().div_ceil(TRIED).max(1)).copied().map(image).collect()
+}
+
+/// The critical directions, by what changes its sign between both sides of the point: what is only soft, and however large in its units,
+/// does not.
+fn turned<S: Liftable>(system: &S, sides: &[Vec<(usize, Vec<f64>)>], count: usize) -> Vec<Vec<f64>> {
+    let length = |v: &[f64]| system.product(v, v).sqrt();
+    let mut changes: Vec<Vec<f64>> = sides[0]
+        .iter()
+        .zip(&sides[1])
+        .map(|((_, a), (_, b))| {
+            let scale = length(a) + length(b);
+            a.iter().zip(b).map(|(a, b)| (a - b) / scale).collect()
+        })
+        .collect();
+    changes.retain(|change: &Vec<f64>| change.iter().all(|c| c.is_finite()));
     // Gram and Schmidt with the largest remainder first.
-    let (mut chosen, mut kernel): (Vec<usize>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
-    for _ in 0..count.min(images.len()) {
-        let sizes: Vec<f64> = images.iter().map(|(_, v)| system.product(v, v)).collect();
-        let best = (0..sizes.len()).max_by(|a, b| sizes[*a].total_cmp(&sizes[*b])).unwrap_or(0);
-        let (row, mut direction) = images.swap_remove(best);
-        let length = sizes[best].sqrt();
-        direction.iter_mut().for_each(|v| *v /= length);
-        for (_, image) in &mut images {
-            let along = system.product(image, &direction);
-            image.iter_mut().zip(&direction).for_each(|(v, d)| *v -= along * d);
+    let mut kernel: Vec<Vec<f64>> = Vec::new();
+    for _ in 0..count.min(changes.len()) {
+        let lengths: Vec<f64> = changes.iter().map(|change| length(change)).collect();
+        let best = (0..lengths.len()).max_by(|a, b| lengths[*a].total_cmp(&lengths[*b])).unwrap_or(0);
+        let mut direction = changes.swap_remove(best);
+        direction.iter_mut().for_each(|v| *v /= lengths[best]);
+        for change in &mut changes {
+            let along = system.product(change, &direction);
+            change.iter_mut().zip(&direction).for_each(|(v, d)| *v -= along * d);
         }
-        chosen.push(row);
         kernel.push(direction);
     }
-    (chosen, kernel)
+    kernel
+}
+
+/// The rows whose solutions are most of all the kernel's, whatever their units, and differ most from each other.
+pub(crate) fn heard<S: Liftable>(system: &mut S, kernel: &[Vec<f64>]) -> Vec<usize> {
+    let mut shares: Vec<(usize, Vec<f64>)> = Vec::new();
+    for (row, step) in images(system) {
+        let length = system.product(&step, &step).sqrt();
+        let share: Vec<f64> = kernel.iter().map(|c| system.product(c, &step) / length).collect();
+        if share.iter().all(|s| s.is_finite()) {
+            shares.push((row, share));
+        }
+    }
+    let mut chosen = Vec::new();
+    for _ in kernel {
+        let Some(best) =
+            (0..shares.len()).max_by(|a, b| square(&shares[*a].1).total_cmp(&square(&shares[*b].1)))
+        else {
+            break;
+        };
+        let (row, share) = shares.swap_remove(best);
+        let length = square(&share);
+        for (_, other) in &mut shares {
+            let along = other.iter().zip(&share).map(|(o, s)| o * s).sum::<f64>() / length;
+            other.iter_mut().zip(&share).for_each(|(o, s)| *o -= along * s);
+        }
+        chosen.push(row);
+    }
+    chosen
+}
+
+fn square(a: &[f64]) -> f64 {
+    a.iter().map(|a| a * a).sum()
 }
 
 /// The inverse of a small matrix given by columns, as one list. None where there is none.
-fn inverse(columns: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+pub(crate) fn inverse(columns: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let k = columns.len();
     let mut rows: Vec<Vec<f64>> = (0..k)
         .map(|i| {

@@ -1,40 +1,57 @@
 //! Branches that leave a point at which several directions become critical at once.
 //!
-//! How they leave is decided by as many equations as there are directions. These are not made; the path is pushed along many directions
-//! of the kernel instead, and from each of them Newton's method goes in the plane across it to the branch that is nearest: every branch
-//! that leaves at an angle below a right one to the push crosses that plane. Branches on which all directions take part draw Newton's
-//! method most; those on which some stay out may be missed.
+//! Differences make the equations that decide how they leave (`algebraic`), whose zeros are led to the branches themselves; of two halves
+//! that leave in opposite directions the tangent is the difference, in which what bends them is gone.
 
+use crate::algebraic::{Algebraic, Half};
 use crate::corrector::between;
+use crate::multiple::{heard, inverse};
 use crate::problem::{Point, Problem, Tangent, slope};
 use crate::walker::{WalkOptions, largest};
-use flexura_nonlinear::System;
+use flexura_nonlinear::{Liftable, System};
 
-/// What the pushes found.
+/// A branch that leaves.
+#[derive(Clone, Debug)]
+pub struct Leaving {
+    /// Its direction.
+    pub tangent: Tangent,
+    /// Points of it close by, against its direction and along it, where they are known.
+    pub points: [Option<Point>; 2],
+}
+
+impl From<Tangent> for Leaving {
+    fn from(tangent: Tangent) -> Self {
+        Self { tangent, points: [None, None] }
+    }
+}
+
+/// What was found.
 #[derive(Clone, Debug)]
 pub enum Spread {
-    /// Directions of the branches, each of which leaves both ways.
-    Branches(Vec<Tangent>),
+    /// The branches, each of which leaves both ways.
+    Branches(Vec<Leaving>),
     /// So many that they form a family, as the directions in which a round column may bend do.
     Family,
 }
 
-/// Pushes around the circle of two directions.
-const AROUND: usize = 12;
-/// Most pushes where more than two directions are critical.
-const MOST_PUSHES: usize = 80;
-/// Length of a push, and of a change of the parameter with it, beside the largest step.
-const LENGTH: f64 = 0.15;
-/// A push that leads nowhere is halved once.
-const WIDTHS: [f64; 2] = [1.0, 0.5];
-/// Changes of the parameter: where branches leave on one side only, or lie as straight as the path, none is no start.
-const SHIFTS: [f64; 3] = [0.0, 1.0, -1.0];
-/// Newton steps of one push.
+/// Most directions of which the equations are made.
+const MOST: usize = 4;
+/// Length of the differences beside the largest step, and what it is divided by where equations cannot be had: how strongly a mechanism
+/// bends from its kernel no measure of the kernel tells.
+const LENGTH: f64 = 0.1;
+const SHORTER: f64 = 4.0;
+const LENGTHS: i32 = 8;
+/// Where the rows are chosen, as a part of the differences.
+const ASIDE: f64 = 0.02;
+/// Size of the last correction of a value, as a part of the sphere: differences of the third order are to be told from it.
+const EVEN: f64 = 1e-8;
+/// Newton steps to a point.
 const STEPS: usize = 30;
-/// How far from its push a branch may be found, beside the push.
-const FARTHEST: f64 = 3.0;
-/// Cosine of the angle between two directions that are one.
+/// A point that is not reached in this many times its length is another one's.
+const FARTHEST: f64 = 4.0;
+/// Cosine of the angle between two directions that are one, and that of a half to what it was led from.
 const SAME: f64 = 0.99;
+const LED: f64 = 0.9;
 
 /// Finds the branches at a point whose tangent vanishes along `kernel`, but for the path itself, which runs along `path`.
 pub fn spread<P: Problem>(
@@ -44,108 +61,227 @@ pub fn spread<P: Problem>(
     kernel: &[Vec<f64>],
     path: &Tangent,
 ) -> Spread {
-    let mut known = vec![path.clone().normalised(problem.system())];
-    let generic = (3_usize.saturating_pow(kernel.len() as u32) - 1) / 2;
-    for shift in SHIFTS {
-        for push in pushes(kernel.len()) {
-            let mut across = vec![0.0; path.step.len()];
-            for (weight, direction) in push.iter().zip(kernel) {
-                across.iter_mut().zip(direction).for_each(|(a, d)| *a += weight * d);
-            }
-            let across = Tangent { step: across, parameter: 0.0 }.normalised(problem.system());
-            let Some(direction) = pushed(problem, options, from, &across, shift) else { continue };
-            let system = problem.system();
-            let same =
-                |other: &Tangent| other.product(system, &direction.step, direction.parameter).abs() > SAME;
-            if !known.iter().any(same) {
-                known.push(direction);
-            }
-            if known.len() > generic + 1 {
-                return Spread::Family;
-            }
+    let count = kernel.len();
+    if count > MOST {
+        return Spread::Branches(Vec::new());
+    }
+    let most = 3_usize.pow(count as u32) + 1;
+    for length in (0..LENGTHS).map(|i| LENGTH / SHORTER.powi(i)) {
+        let mut sphere = Sphere::new(problem, options, from, kernel, path, length);
+        let Some(equations) = sphere.as_mut().and_then(|sphere| sphere.equations(problem)) else { continue };
+        let Some(sphere) = sphere else { continue };
+        let halves = equations.halves(most);
+        if halves.len() > most {
+            return Spread::Family;
         }
-        if known.len() == generic + 1 {
-            break;
+        let led: Vec<Led> = halves.iter().filter_map(|half| sphere.lead(problem, options, half)).collect();
+        let found = whole(problem.system(), led, path);
+        if !found.is_empty() {
+            return Spread::Branches(found);
         }
     }
-    Spread::Branches(known.split_off(1))
+    Spread::Branches(Vec::new())
 }
 
-/// Weights of the kernel's directions: around the circle of two, else all of -1, 0, 1 with few of them not zero first.
-fn pushes(count: usize) -> Vec<Vec<f64>> {
-    if count == 2 {
-        let angle = |i: usize| std::f64::consts::TAU * (i as f64 + 0.25) / (AROUND as f64);
-        return (0..AROUND).map(|i| vec![angle(i).cos(), angle(i).sin()]).collect();
-    }
-    let mut all: Vec<Vec<f64>> = vec![Vec::new()];
-    for _ in 0..count.min(7) {
-        all = all
-            .iter()
-            .flat_map(|start| [0.0, 1.0, -1.0].map(|w| start.iter().copied().chain([w]).collect()))
-            .collect();
-    }
-    let used = |push: &Vec<f64>| push.iter().filter(|w| **w != 0.0).count();
-    all.retain(|push| used(push) > 0);
-    all.sort_by_key(used);
-    all.truncate(MOST_PUSHES);
-    all
+/// A half that was led to its branch: the direction of its amplitudes, the way there and the point.
+struct Led {
+    amplitudes: Vec<f64>,
+    way: Tangent,
+    point: Point,
 }
 
-/// The direction of the branch to which a push leads with a change of the parameter.
-fn pushed<P: Problem>(
-    problem: &mut P,
-    options: &WalkOptions,
-    from: &Point,
-    across: &Tangent,
+/// Joins halves that leave in opposite directions, without those of the path.
+fn whole<S: Liftable>(system: &S, mut halves: Vec<Led>, path: &Tangent) -> Vec<Leaving> {
+    let path = path.clone().normalised(system);
+    let mut found: Vec<Leaving> = Vec::new();
+    while let Some(half) = halves.pop() {
+        let cosine = |other: &Led| dot(&other.amplitudes, &half.amplitudes);
+        let opposite = (0..halves.len()).min_by(|a, b| cosine(&halves[*a]).total_cmp(&cosine(&halves[*b])));
+        let mut tangent = half.way;
+        let mut back = None;
+        if let Some(opposite) = opposite.filter(|i| cosine(&halves[*i]) < -LED) {
+            let other = halves.swap_remove(opposite);
+            tangent.step.iter_mut().zip(&other.way.step).for_each(|(t, o)| *t -= o);
+            tangent.parameter -= other.way.parameter;
+            back = Some(other.point);
+        }
+        let tangent = tangent.normalised(system);
+        let same = |other: &Tangent| other.product(system, &tangent.step, tangent.parameter).abs() > SAME;
+        if !same(&path) && !found.iter().any(|other| same(&other.tangent)) {
+            found.push(Leaving { tangent, points: [back, Some(half.point)] });
+        }
+    }
+    found
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// A small sphere of amplitudes around the point.
+struct Sphere<'a> {
+    from: &'a Point,
+    kernel: &'a [Vec<f64>],
+    /// Equations that are given up.
+    rows: Vec<usize>,
+    /// What the parameter does aside of the kernel. Where nothing else moved, the tangent would stay as critical as it is.
+    along: Vec<f64>,
+    /// Length of an amplitude of one, and of a change of the parameter by one.
+    radius: f64,
     shift: f64,
-) -> Option<Tangent> {
-    let width = LENGTH * largest(problem.system(), across, options);
-    WIDTHS.iter().find_map(|part| {
-        let shift = part * shift * LENGTH * options.largest_parameter;
-        arrived(problem, options, from, across, (part * width, shift))
-    })
 }
 
-fn arrived<P: Problem>(
-    problem: &mut P,
-    options: &WalkOptions,
-    from: &Point,
-    across: &Tangent,
-    (width, shift): (f64, f64),
-) -> Option<Tangent> {
-    from.restore(problem).ok()?;
-    let step: Vec<f64> = across.step.iter().map(|t| width * t).collect();
-    let reach = width * across.size(problem.system());
-    problem.system().retract(&step);
-    problem.set_parameters([from.parameters[0] + shift, from.parameters[1]]).ok()?;
-    let mut step = vec![0.0; problem.system().unknowns()];
-    for _ in 0..STEPS {
+impl<'a> Sphere<'a> {
+    fn new<P: Problem>(
+        problem: &mut P,
+        options: &WalkOptions,
+        from: &'a Point,
+        kernel: &'a [Vec<f64>],
+        path: &Tangent,
+        length: f64,
+    ) -> Option<Self> {
+        let widest = |system: &P::System, direction: &Vec<f64>| {
+            largest(system, &Tangent { step: direction.clone(), parameter: 0.0 }, options)
+        };
+        from.restore(problem).ok()?;
+        let radius =
+            kernel.iter().map(|c| widest(problem.system(), c)).fold(f64::INFINITY, f64::min) * length;
+        let mut sphere = Self {
+            from,
+            kernel,
+            rows: Vec::new(),
+            along: Vec::new(),
+            radius,
+            shift: length * options.largest_parameter,
+        };
+        // A little along the path, where the tangent has an inverse: aside of it rows would be heard that at the point are not.
+        let mut along = path.clone();
+        along.scale(ASIDE * length * largest(problem.system(), path, options));
+        problem.system().retract(&along.step);
+        let parameters = from.parameters;
+        problem.set_parameters([parameters[0] + along.parameter, parameters[1]]).ok()?;
         problem.system().linearise().ok()?;
-        problem.system().newton_step(&mut step);
-        let along = slope(problem, 0).ok()?;
-        let system = problem.system();
-        let mut dp = -across.product(system, &step, 0.0) / across.product(system, &along, 0.0);
-        step.iter_mut().zip(&along).for_each(|(s, v)| *s += v * dp);
-        let size = system.size(&step).max(dp.abs());
-        if !size.is_finite() {
-            return None;
+        let mut along = slope(problem, 0).ok()?;
+        for direction in kernel {
+            let part = problem.system().product(direction, &along);
+            along.iter_mut().zip(direction).for_each(|(a, d)| *a -= part * d);
         }
-        if size > reach {
-            // The tangent hardly has an inverse near the point: long steps lead anywhere.
-            let part = reach / size;
-            step.iter_mut().for_each(|s| *s *= part);
-            dp *= part;
-        }
-        system.retract(&step);
-        let mut parameters = problem.parameters();
-        parameters[0] += dp;
-        problem.set_parameters(parameters).ok()?;
-        if size <= options.tolerance {
-            let point = Point::here(problem);
-            let gone = between(problem, from, &point);
-            let near = gone.size(problem.system()) <= FARTHEST * reach;
-            return near.then(|| gone.normalised(problem.system()));
-        }
+        sphere.along = along;
+        sphere.rows = heard(problem.system(), kernel);
+        Some(sphere)
     }
-    None
+
+    /// Goes to a place by the kernel and by what the parameter does beside it.
+    fn go<P: Problem>(&self, problem: &mut P, amplitudes: &[f64], parameter: f64) -> Option<()> {
+        self.from.restore(problem).ok()?;
+        let mut step = vec![0.0; problem.system().unknowns()];
+        for (amplitude, direction) in amplitudes.iter().zip(self.kernel) {
+            let by = amplitude * self.radius;
+            step.iter_mut().zip(direction).for_each(|(s, d)| *s += by * d);
+        }
+        let shift = parameter * self.shift;
+        step.iter_mut().zip(&self.along).for_each(|(s, a)| *s += shift * a);
+        problem.system().retract(&step);
+        let parameters = self.from.parameters;
+        problem.set_parameters([parameters[0] + shift, parameters[1]]).ok()
+    }
+
+    fn equations<P: Problem>(&mut self, problem: &mut P) -> Option<Algebraic> {
+        Algebraic::by_differences(self.kernel.len(), |amplitudes, parameter| {
+            self.value(problem, amplitudes, parameter)
+        })
+    }
+
+    /// g there: what the rows that are given up must bear so that all others hold, by Newton's method at fixed amplitudes.
+    fn value<P: Problem>(&self, problem: &mut P, amplitudes: &[f64], parameter: f64) -> Option<Vec<f64>> {
+        self.go(problem, amplitudes, parameter)?;
+        let unknowns = problem.system().unknowns();
+        let mut step = vec![0.0; unknowns];
+        for _ in 0..STEPS {
+            let gone = {
+                let here = Point::here(problem);
+                between(problem, self.from, &here)
+            };
+            let system = problem.system();
+            system.linearise().ok()?;
+            system.newton_step(&mut step);
+            let mut borne = Vec::with_capacity(self.rows.len());
+            for &row in &self.rows {
+                let mut one = vec![0.0; unknowns];
+                system.unit_step(row, &mut one);
+                borne.push(one);
+            }
+            let columns: Vec<Vec<f64>> = borne
+                .iter()
+                .map(|one| self.kernel.iter().map(|c| system.product(c, one)).collect())
+                .collect();
+            let missing: Vec<f64> = self
+                .kernel
+                .iter()
+                .zip(amplitudes)
+                .map(|(c, z)| z * self.radius - system.product(c, &gone.step) - system.product(c, &step))
+                .collect();
+            let inverse = inverse(columns)?;
+            let forces: Vec<f64> = inverse.chunks(missing.len()).map(|row| dot(row, &missing)).collect();
+            for (force, one) in forces.iter().zip(&borne) {
+                step.iter_mut().zip(one).for_each(|(s, o)| *s += force * o);
+            }
+            let size = system.size(&step);
+            if !size.is_finite() || size > FARTHEST * self.radius.max(self.shift) {
+                return None;
+            }
+            system.retract(&step);
+            if size <= EVEN * self.radius {
+                return Some(forces);
+            }
+        }
+        None
+    }
+
+    /// From a zero of the equations to the branch: its amplitudes and the way there.
+    fn lead<P: Problem>(&self, problem: &mut P, options: &WalkOptions, half: &Half) -> Option<Led> {
+        self.go(problem, &half.amplitudes, half.parameter)?;
+        let mut across = vec![0.0; problem.system().unknowns()];
+        for (amplitude, direction) in half.amplitudes.iter().zip(self.kernel) {
+            across.iter_mut().zip(direction).for_each(|(a, d)| *a += amplitude * d);
+        }
+        let across = Tangent { step: across, parameter: 0.0 }.normalised(problem.system());
+        let reach = (self.radius * across.size(problem.system())).max(half.parameter.abs() * self.shift);
+        let mut step = vec![0.0; problem.system().unknowns()];
+        for _ in 0..STEPS {
+            problem.system().linearise().ok()?;
+            problem.system().newton_step(&mut step);
+            let along = slope(problem, 0).ok()?;
+            let system = problem.system();
+            let mut dp = -across.product(system, &step, 0.0) / across.product(system, &along, 0.0);
+            step.iter_mut().zip(&along).for_each(|(s, v)| *s += v * dp);
+            let size = system.size(&step).max(dp.abs());
+            if !size.is_finite() {
+                return None;
+            }
+            if size > reach {
+                // The tangent hardly has an inverse near the point: long steps lead anywhere.
+                let part = reach / size;
+                step.iter_mut().for_each(|s| *s *= part);
+                dp *= part;
+            }
+            system.retract(&step);
+            let mut parameters = problem.parameters();
+            parameters[0] += dp;
+            problem.set_parameters(parameters).ok()?;
+            if size <= options.tolerance {
+                let point = Point::here(problem);
+                let gone = between(problem, self.from, &point);
+                let system = problem.system();
+                let mut amplitudes: Vec<f64> =
+                    self.kernel.iter().map(|c| system.product(c, &gone.step)).collect();
+                let length = dot(&amplitudes, &amplitudes).sqrt();
+                amplitudes.iter_mut().for_each(|a| *a /= length);
+                let is_near = gone.size(system) <= FARTHEST * reach;
+                let is_led = is_near && dot(&amplitudes, &half.amplitudes) > LED;
+                return is_led.then_some(Led { amplitudes, way: gone, point });
+            }
+        }
+        None
+    }
 }

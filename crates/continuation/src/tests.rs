@@ -222,8 +222,14 @@ fn pitchforks_are_told_apart_and_both_arms_are_reached() {
         assert!(walker.here().point.state[0].abs() < 1e-12 && walker.here().index == Some(1));
         for sense in [1.0, -1.0] {
             let options = WalkOptions::default();
-            let mut arm =
-                Walker::switch(&mut problem, options, &special.point, &special.branches[0], sense).unwrap();
+            let mut arm = Walker::switch(
+                &mut problem,
+                options,
+                &special.point,
+                &special.branches[0].clone().into(),
+                sense,
+            )
+            .unwrap();
             assert!(specials(&mut problem, &mut arm, 10).is_empty());
             let Place { point, index, .. } = arm.here();
             let (x, p) = (point.state[0], point.parameters[0]);
@@ -249,7 +255,8 @@ fn two_branches_that_cross_without_turning_back_are_transcritical() {
     assert_eq!(found[0].crossing, Some(Crossing::Transcritical));
     let options = WalkOptions::default();
     let mut other =
-        Walker::switch(&mut problem, options, &found[0].point, &found[0].branches[0], 1.0).unwrap();
+        Walker::switch(&mut problem, options, &found[0].point, &found[0].branches[0].clone().into(), 1.0)
+            .unwrap();
     specials(&mut problem, &mut other, 10);
     let point = &other.here().point;
     assert!(point.state[0].abs() > 0.05 && (point.state[0] - 0.5 * point.parameters[0]).abs() < 1e-9);

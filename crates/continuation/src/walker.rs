@@ -6,6 +6,7 @@
 //! again in shorter steps (`passed`).
 
 mod corner;
+mod leave;
 mod passed;
 
 use crate::corrector::{Limits, Miss, between, correct, settle};
@@ -154,47 +155,6 @@ impl Walker {
             work: WalkWork::default(),
             corners: 0,
         })
-    }
-
-    /// Starts from a branch point along one of its branches (`sense` ±1): the first point beyond it.
-    ///
-    /// # Errors
-    /// No point of that branch is found.
-    pub fn switch<P: Problem>(
-        problem: &mut P,
-        options: WalkOptions,
-        from: &Point,
-        branch: &Tangent,
-        sense: f64,
-    ) -> Result<Self, Stall> {
-        let mut tangent = branch.clone();
-        tangent.scale(sense);
-        from.restore(problem).map_err(stall)?;
-        // A short one: what crosses the branch close to its start is not to be stepped over.
-        let mut width = 0.15 * largest(problem.system(), &tangent, &options);
-        let mut worst = Stall::Short;
-        for _ in 0..14 {
-            match first_point(problem, &options, from, &tangent, width) {
-                Ok(here) => {
-                    let start =
-                        Place { point: from.clone(), arc: 0.0, tangent: tangent.clone(), ..here.clone() };
-                    return Ok(Self {
-                        options,
-                        here,
-                        before: None,
-                        width,
-                        last: Some((start, width)),
-                        is_tangent_here: true,
-                        work: WalkWork { taken: 1, refused: 0 },
-                        corners: 0,
-                    });
-                }
-                Err(Miss::Refused(Refusal::Parameter(why))) => worst = Stall::Parameter(why),
-                Err(_) => {}
-            }
-            width *= 0.5;
-        }
-        Err(worst)
     }
 
     /// The present point.
@@ -529,46 +489,4 @@ fn direction_here<P: Problem>(problem: &mut P) -> Result<(Vec<f64>, Tangent), Re
 fn direction<S: flexura_nonlinear::Liftable>(system: &S, slope: &[f64]) -> Option<Tangent> {
     let tangent = Tangent { step: slope.to_vec(), parameter: 1.0 }.normalised(system);
     tangent.parameter.is_finite().then_some(tangent)
-}
-
-/// The first point of a branch beyond its branch point.
-pub(crate) fn first_point<P: Problem>(
-    problem: &mut P,
-    options: &WalkOptions,
-    from: &Point,
-    tangent: &Tangent,
-    width: f64,
-) -> Result<Place, Miss> {
-    from.restore(problem)?;
-    let step: Vec<f64> = tangent.step.iter().map(|t| width * t).collect();
-    let reach = width * tangent.size(problem.system());
-    problem.system().retract(&step);
-    let parameters = from.parameters;
-    problem.set_parameters([parameters[0] + width * tangent.parameter, parameters[1]])?;
-    let limits =
-        Limits { tolerance: options.tolerance, farthest: options.farthest, reach, renewed_below: 0.0 };
-    correct(problem, tangent, None, &limits)?;
-    let point = Point::here(problem);
-    let gone = between(problem, from, &point);
-    problem.system().linearise()?;
-    let (slope, mut direction) = direction_here(problem)?;
-    let system = problem.system();
-    let length = gone.product(system, &gone.step, gone.parameter).sqrt();
-    let cosine = tangent.product(system, &gone.step, gone.parameter) / length;
-    let mut ahead = direction.product(system, &tangent.step, tangent.parameter);
-    if ahead < 0.0 {
-        direction.scale(-1.0);
-        ahead = -ahead;
-    }
-    if cosine < 0.9 || ahead < options.least_cosine {
-        return Err(Miss::NotContracting);
-    }
-    Ok(Place {
-        positive: problem.system().orientation(),
-        index: problem.index(),
-        arc: width,
-        tangent: direction,
-        slope,
-        point,
-    })
 }

@@ -5,7 +5,7 @@ use super::problem::{Axis, Traced};
 use super::record::{Reader, without_value};
 use super::{TraceProgress, critical, search};
 use crate::{Family, Options, Prepared, ProblemError};
-use flexura_continuation::{Problem, Refusal, Spread, Tangent, WalkOptions, Walker, spread};
+use flexura_continuation::{Leaving, Problem, Refusal, Spread, WalkOptions, Walker, spread};
 use flexura_model::{Model, Stop, StudyKind, TraceStudy};
 use flexura_nonlinear::{NewtonOptions, System, converge};
 use flexura_solution::{Branch, BranchEnd, BranchOrigin, PointKind, Status, Trace, TraceWork};
@@ -323,11 +323,13 @@ fn switch(traced: &mut Traced<'_>, follower: &mut Follower<'_>, most: usize, col
         }
         collection.known[position].done = true;
         let Known { branch, at, met, .. } = &collection.known[position];
-        let (branch, at, mut met) = (*branch, *at, met.clone());
-        if met.kernel.len() > 1 {
-            met.branches = several(traced, &options, &met, branch, at, collection);
-        }
-        for tangent in &met.branches {
+        let (branch, at, met) = (*branch, *at, met.clone());
+        let leaving = if met.kernel.len() > 1 {
+            several(traced, &options, &met, branch, at, collection)
+        } else {
+            met.branches.iter().cloned().map(Leaving::from).collect()
+        };
+        for leaving in &leaving {
             follower.branch = collection.branches.len();
             let mut legs: Vec<Leg> = Vec::new();
             for sense in [-1.0, 1.0] {
@@ -344,7 +346,7 @@ fn switch(traced: &mut Traced<'_>, follower: &mut Follower<'_>, most: usize, col
                 }
                 traced.go_back(snapshot);
                 let reading = follower.reader.read(traced);
-                legs.push(match Walker::switch(traced, options, &met.point, tangent, sense) {
+                legs.push(match Walker::switch(traced, options, &met.point, leaving, sense) {
                     Ok(mut walker) => follower.follow(traced, &mut walker, First::Beyond(reading)),
                     Err(stall) => Leg {
                         points: Vec::new(),
@@ -378,7 +380,7 @@ fn several(
     branch: usize,
     at: usize,
     collection: &mut Collection,
-) -> Vec<Tangent> {
+) -> Vec<Leaving> {
     let Some(snapshot) = &met.snapshot else { return Vec::new() };
     traced.go_back(snapshot);
     let value = collection.branches[branch].points[at].parameter;
@@ -390,7 +392,7 @@ fn several(
     match spread(traced, options, &met.point, &met.kernel, &met.tangent) {
         Spread::Branches(found) if found.is_empty() => {
             collection.warnings.push(format!(
-                "{place}, and pushes along them led to no branch; give a small imperfection to tell them apart"
+                "{place}, and no branch was found that leaves there; give a small imperfection to tell them apart"
             ));
             Vec::new()
         }
