@@ -260,11 +260,9 @@ impl Equilibrium {
                 + load.follower.moment.norm()
         };
         let nodes = self.lowered.nodes.iter().flat_map(|node| &node.loads).map(|(_, load, _)| size(load));
-        let spans = self
-            .expected
-            .iter()
-            .map(|course| course.most)
-            .map(|most| most.force + most.moment + most.tendons);
+        // What is expected of forces rises with them.
+        let spans = self.lowered.spans.iter().map(|span| self.expected_course(span).most);
+        let spans = spans.map(|most| most.force + most.moment + most.tendons);
         let unit = self.lowered.spans.iter().map(|span| self.lowered.beams[span.beam].wrench_unit[0]);
         (nodes.sum::<f64>() + spans.sum::<f64>()) / unit.fold(f64::INFINITY, f64::min).min(1.0)
     }

@@ -92,7 +92,7 @@ impl Equilibrium {
     }
 
     /// What the given loads lead one to expect along a span.
-    fn expected_course(&self, span: &Span) -> Course {
+    pub(crate) fn expected_course(&self, span: &Span) -> Course {
         let mut level = Level::default();
         let law = &self.lowered.beams[span.beam];
         for j in &span.jumps {
