@@ -128,7 +128,8 @@ fn cause(document: &Document, path: &Path) -> Option<(Kind, String)> {
     let said = document.reason.clone().unwrap_or_default();
     let status = &document.status;
     let near = |places: &[f64]| places.iter().any(|place| (place - at).abs() < NEAR);
-    let fold = said.contains("fold");
+    // Another reason may say that neither was found.
+    let fold = said.contains("at a fold");
     if status == "accuracy_limit" {
         return Some((Kind::Accuracy, said));
     }
@@ -137,7 +138,7 @@ fn cause(document: &Document, path: &Path) -> Option<(Kind, String)> {
     } else if fold && !near(folds) {
         let has = format!("the trace has folds at {folds:.4?} and ends at {reached:.4}");
         format!("{status} at {at:.4} says a fold; {has}: {why}")
-    } else if said.contains("branch point") && !fold && !near(branches) {
+    } else if said.contains("branch points, at each") && !fold && !near(branches) {
         format!("{status} at {at:.4} says a branch point; the trace has them at {branches:.4?}")
     } else {
         return None;

@@ -20,13 +20,8 @@ const KNOWN: &[(u64, Kind)] = &[
     (105, Kind::TraceLost),
     (113, Kind::TraceLost),
     (25, Kind::Accuracy),
-    // A path that grows steep without a fold is called one.
-    (17, Kind::WrongCause),
-    (23, Kind::WrongCause),
-    (58, Kind::WrongCause),
+    // The trace goes through where the solve needs more load steps than it may take.
     (63, Kind::WrongCause),
-    (110, Kind::WrongCause),
-    (119, Kind::WrongCause),
 ];
 
 #[test]

@@ -47,7 +47,7 @@ const MOST_WALKED: usize = 2000;
 /// How often the walker may take over.
 const HANDOVERS: usize = 40;
 /// Way to the edge of a law, relative to a length, at which a path counts as ending there.
-pub(crate) const AT_EDGE: f64 = 1e-5;
+pub(crate) const AT_EDGE: f64 = 1e-4;
 /// Load fractions that are the same, as a part of themselves.
 const SAME: f64 = 1e-4;
 /// Change of the state with the load, both as parts of themselves, from which a point counts as a fold; the least way (L) that
