@@ -137,6 +137,9 @@ impl Prepared {
     /// # Errors
     /// As [`Prepared::new`].
     pub fn with_probes(model: &Model, probes: &[BeamPoint]) -> Result<Self, ProblemError> {
+        if let Some(issue) = model.validate().into_iter().next() {
+            return Err(ProblemError::new(issue.path, issue.message, issue.hint.unwrap_or_default()));
+        }
         let mut problem = Equilibrium::with_probes(model, probes)?;
         // What is beyond reach is said by every solve; nothing is worked out on its mesh.
         let footing = if problem.beyond_reach().is_some() { Footing::Firm } else { problem.footing()? };
