@@ -148,7 +148,12 @@ pub fn json(document: &impl Serialize) -> Result<String, Failure> {
 /// A result that holds a number which is none can only be one that did not converge, or a bug.
 pub fn unwritable(failure: Option<Failure>, message: &str) -> Failure {
     match failure {
-        Some(failure @ (Failure::NotConverged(_) | Failure::Interrupted(_))) => failure,
+        Some(Failure::NotConverged(why)) => Failure::NotConverged(without_document(&why, message)),
+        Some(Failure::Interrupted(why)) => Failure::Interrupted(without_document(&why, message)),
         _ => Failure::Machine(format!("{message}; this is a bug in flexura, please report it")),
     }
+}
+
+fn without_document(why: &str, message: &str) -> String {
+    format!("{why}; there is no result document of where it broke off, for {message}")
 }

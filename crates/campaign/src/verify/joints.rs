@@ -119,7 +119,7 @@ impl Held<'_> {
             laws.iter().map(driven_to).collect()
         };
         let told = told.or_else(driven);
-        let v = told.map_or_else(|| log(&self.pose.rotation), |q| V::new(q[0], q[1], q[2]));
+        let v = told.map_or_else(|| self.turned_by(first), |q| V::new(q[0], q[1], q[2]));
         // δX turns by J(v) δv in F's axes, J the left Jacobian.
         let effort = left_jacobian(&v).transpose() * self.wrench.moment;
         let mut all = Vec::new();
@@ -133,6 +133,24 @@ impl Held<'_> {
         }
         all.extend((0..3).map(|i| Along { value: v[i], effort: effort[i], is_angle: true }));
         (all, Pose::new(exp(&v), if free { self.pose.position } else { V::zeros() }))
+    }
+
+    /// The rotation vector where no one tells it: of all that turn alike, whole turns more or less, the one that its springs fit best.
+    fn turned_by(&self, first: usize) -> V {
+        let least = log(&self.pose.rotation);
+        let Some(axis) = least.try_normalize(1e-12) else { return least };
+        let misfit = |v: &V| -> f64 {
+            let effort = left_jacobian(v).transpose() * self.wrench.moment;
+            let off = |i: usize| match self.law.coordinates.get(first + i) {
+                Some(CoordinateLaw { drive: Drive::Free { effort: given }, stiffness, rest, .. }) => {
+                    given - stiffness * (v[i] - rest) - effort[i]
+                }
+                _ => 0.0,
+            };
+            (0..3).map(|i| off(i).powi(2)).sum()
+        };
+        let whole = |k: i32| least + axis * (std::f64::consts::TAU * f64::from(k));
+        (-2..=2).map(whole).min_by(|a, b| misfit(a).total_cmp(&misfit(b))).unwrap_or(least)
     }
 
     /// Closure, drives and efforts.
