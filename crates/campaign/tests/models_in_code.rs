@@ -69,7 +69,8 @@ fn broken(model: &mut Model, way: usize, which: usize) -> bool {
         18 => one(&mut model.loads, which).map(|load| load.force.x = f64::NAN),
         19 => (beams > 0).then(|| model.loads.push(load(LoadTarget::Beam(beyond)))),
         20 => {
-            Some(model.loads.push(load(LoadTarget::Body { body: BodyId(bodies), point: Vector3::zeros() })))
+            model.loads.push(load(LoadTarget::Body { body: BodyId(bodies), point: Vector3::zeros() }));
+            Some(())
         }
         21 => one(&mut model.beams, which)
             .and_then(|beam| beam.distributed.first_mut())
@@ -77,7 +78,10 @@ fn broken(model: &mut Model, way: usize, which: usize) -> bool {
         22 => one(&mut model.couplings, which)
             .and_then(|coupling| coupling.terms.first_mut())
             .map(|term| term.joint.0 = 1000),
-        _ => Some(model.gravity.z = f64::NAN),
+        _ => {
+            model.gravity.z = f64::NAN;
+            Some(())
+        }
     };
     change.is_some()
 }

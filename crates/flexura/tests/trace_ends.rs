@@ -35,6 +35,27 @@ fn a_length_that_is_traced_through_nothing_is_said_to_be_positive() {
     assert!(why.contains("positive"), "{why}");
 }
 
+/// A weight on a cable of given length, lifted: the cable would have to push from where the load changes sign, 1.3.
+#[test]
+fn a_cable_that_would_have_to_push_is_told_along_a_trace() {
+    let text = "format = 1\n[parameter]\nlift = -2\n[body.weight]\nat = [0, 0, 0]\n[joint.rail]\nkind = \"prismatic\"\naxis = [0, 1, 0]\n\
+         parent = \"ground\"\nchild = \"weight\"\nstiffness = 1\n[cable.c]\nlength = 1\n\
+         route = [{ body = \"ground\", at = [0, 1, 0] }, { body = \"weight\", at = [0, 0, 0] }]\n\
+         [load.up]\nbody = \"weight\"\nforce = [0, \"lift - 1.3\", 0]\n[study.path]\nkind = \"trace\"\nparameter = \"lift\"\nsteps = 40\n";
+    let found = traced(&format!("{text}range = [-2, 4]\n"), &[], 1e-8);
+    let said: Vec<_> = found
+        .trace
+        .warnings
+        .iter()
+        .filter(|warning| warning.contains("cable.c would have to push"))
+        .collect();
+    assert_eq!(said.len(), 1, "{:?}", found.trace.warnings);
+    let at: f64 = said[0].split("lift = ").nth(1).unwrap().split(':').next().unwrap().trim().parse().unwrap();
+    assert!((1.3..=1.5).contains(&at), "{}", said[0]);
+    let found = traced(&format!("{text}range = [-2, 1.2]\n"), &[], 1e-8);
+    assert!(found.trace.warnings.is_empty(), "{:?}", found.trace.warnings);
+}
+
 /// A wheel on the ground that is pressed on, then lifted: its contact pulls from where the load changes sign, 1.3.
 #[test]
 fn a_contact_that_pulls_is_told_along_a_trace() {

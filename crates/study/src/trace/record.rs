@@ -61,7 +61,12 @@ impl Reader {
             .collect();
         let mut solution = prepared.problem.sampled(FEW, energies, |beam| beams.contains(&beam));
         // Those of the mechanism itself come first, and are said of the whole trace.
-        let warnings = solution.warnings.split_off(prepared.problem.warnings().len());
+        let mut warnings = solution.warnings.split_off(prepared.problem.warnings().len());
+        if let Some((cable, push)) = prepared.problem.slack_cable() {
+            warnings.push(format!(
+                "{cable} would have to push with {push:.4e} N to have its length: it is slack there, and the path is not that of a cable"
+            ));
+        }
         prepared.add_tangents(&mut solution, &[]);
         Reading { warnings, ..self.read_from(prepared.problem.model(), &solution) }
     }
