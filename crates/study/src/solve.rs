@@ -137,7 +137,7 @@ impl Prepared {
     /// # Errors
     /// As [`Prepared::new`].
     pub fn with_probes(model: &Model, probes: &[BeamPoint]) -> Result<Self, ProblemError> {
-        if let Some(issue) = model.validate().into_iter().next() {
+        if let Some(issue) = model.validate_mechanism().into_iter().next() {
             return Err(ProblemError::new(issue.path, issue.message, issue.hint.unwrap_or_default()));
         }
         let mut problem = Equilibrium::with_probes(model, probes)?;

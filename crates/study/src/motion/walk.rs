@@ -395,7 +395,7 @@ fn unwrapped(model: &Model, mut along: Vec<Vec<Vec<f64>>>) -> Vec<Vec<Vec<f64>>>
 fn with_loads(mut model: Model) -> Model {
     for (i, body) in model.bodies.iter().enumerate() {
         model.loads.push(Load {
-            name: format!("inertia of {}", body.name),
+            name: format!("inertia-of-{}", body.name),
             target: LoadTarget::Body { body: flexura_model::BodyId(i), point: body.center_of_mass },
             force: Vector3::zeros(),
             moment: Vector3::zeros(),
