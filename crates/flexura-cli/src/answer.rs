@@ -5,11 +5,13 @@ use crate::commands::{file_failure, warn_about, warn_of_outputs};
 use crate::failure::Failure;
 use crate::files::{self, Growing};
 use crate::interrupt;
-use crate::screen;
+use crate::{page, screen};
 use flexura::Options;
 use flexura::model::{Model, visible};
 use flexura::modelfile::Document;
-use flexura::output::{self, BucklingDocument, InverseDynamicsDocument, TraceDocument, to_json};
+use flexura::output::{
+    self, BucklingDocument, InverseDynamicsDocument, SceneDocument, TraceDocument, to_json,
+};
 use flexura::post::PostError;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -21,6 +23,8 @@ pub struct Task<'a> {
     pub overrides: &'a [(String, String)],
     pub options: Options,
     pub folder: Option<PathBuf>,
+    /// Where the page alone is wanted.
+    pub page: Option<PathBuf>,
     pub is_json: bool,
     pub is_quiet: bool,
 }
@@ -30,7 +34,7 @@ impl<'a> Task<'a> {
     pub fn new(
         arguments: &'a ModelArguments,
         file: Document,
-        folder: Option<&Path>,
+        (folder, page): (Option<&Path>, Option<&Path>),
         tolerance: Option<f64>,
     ) -> Result<Self, Failure> {
         let overrides = &arguments.overrides;
@@ -45,22 +49,43 @@ impl<'a> Task<'a> {
         }
         let folder = folder.map(Path::to_path_buf);
         let (is_json, is_quiet) = (arguments.json, arguments.quiet);
-        Ok(Self { file, model, overrides, options, folder, is_json, is_quiet })
+        if let Some(path) = page {
+            page::begin(path)?;
+        }
+        let page = page.map(Path::to_path_buf);
+        if is_json || folder.is_some() || page.is_some() {
+            options.shapes = SHAPE;
+        }
+        Ok(Self { file, model, overrides, options, folder, page, is_json, is_quiet })
     }
 
     /// Will anybody read the result document?
     pub fn wants_document(&self) -> bool {
-        self.is_json || self.folder.is_some()
+        self.is_json || self.folder.is_some() || self.page.is_some()
+    }
+
+    /// The scene of a document tells the model file too.
+    pub fn with_text(&self, mut answer: Answer) -> Answer {
+        if let Some(scene) = answer.document.as_mut().and_then(StudyDocument::scene) {
+            scene.text = Some(self.file.text().to_owned());
+        }
+        answer
     }
 
     /// Writes the files, prints document or summary, tells the warnings, and ends as the study did.
-    pub fn deliver(&self, mut answer: Answer) -> Result<(), Failure> {
+    pub fn deliver(&self, answer: Answer) -> Result<(), Failure> {
         let is_interrupted = self.options.interrupt.is_raised();
+        let mut answer = self.with_text(answer);
         // What has no room on the disk is shown nevertheless.
         let (written, unwritten) = match self.write(&mut answer, self.folder.as_deref()) {
             Ok(written) => (written, None),
             Err(failure) => (None, Some(failure)),
         };
+        let page = match (&self.page, &answer.document) {
+            (Some(path), Some(document)) => page::write(path, document).err(),
+            _ => None,
+        };
+        let unwritten = unwritten.or(page);
         if let Some(document) = answer.document.as_ref().filter(|_| self.is_json) {
             screen::print_table(&written.map_or_else(|| json(document), Ok)?)?;
         } else if !self.is_quiet {
@@ -75,6 +100,7 @@ impl<'a> Task<'a> {
         }
         if !self.is_quiet {
             self.tell_files(&answer, self.folder.as_deref());
+            self.tell_page();
         }
         match answer.failure {
             // It may have been ended in what comes after the equilibrium.
@@ -88,11 +114,19 @@ impl<'a> Task<'a> {
     /// Writes the files of an answer; the text of the document, if there is a folder.
     pub fn write(&self, answer: &mut Answer, folder: Option<&Path>) -> Result<Option<String>, Failure> {
         let (Some(folder), Some(document)) = (folder, &answer.document) else { return Ok(None) };
-        let names = answer.files.iter().map(|(name, _)| *name).collect();
+        let names = answer.files.iter().map(|(name, _)| *name).chain([page::NAME]).collect();
         let text = json(&Written { document, files: names })?;
+        answer.files.push((page::NAME, page::of_text(&text)?));
         files::replace_all(folder, &text, &answer.files)?;
         answer.growing.take().into_iter().for_each(Growing::finish);
         Ok(Some(text))
+    }
+
+    /// Says that the page was written.
+    pub fn tell_page(&self) {
+        if let Some(path) = &self.page {
+            screen::note(&format!("wrote {}", visible(&path.to_string_lossy())));
+        }
     }
 
     /// Says which files were written.
@@ -104,6 +138,9 @@ impl<'a> Task<'a> {
         screen::note(&format!("wrote {} and {} into {}", names.join(", "), last.0, visible(&folder)));
     }
 }
+
+/// Sections along each beam of the shapes between those states of a path that are kept whole.
+const SHAPE: usize = 17;
 
 /// What came out of a study.
 pub struct Answer {
@@ -138,6 +175,18 @@ struct Written<'a> {
     #[serde(flatten)]
     document: &'a StudyDocument,
     files: Vec<&'static str>,
+}
+
+impl StudyDocument {
+    /// What there is to draw.
+    fn scene(&mut self) -> Option<&mut SceneDocument> {
+        match self {
+            StudyDocument::Solve(document) => Some(&mut document.scene),
+            StudyDocument::Trace(document) => document.scene.as_mut(),
+            StudyDocument::Buckling(document) => Some(&mut document.scene),
+            StudyDocument::InverseDynamics(document) => document.scene.as_mut(),
+        }
+    }
 }
 
 /// The text of a document.

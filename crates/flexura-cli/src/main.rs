@@ -12,6 +12,7 @@ mod failure;
 mod files;
 mod interrupt;
 mod motion_summary;
+mod page;
 mod progress;
 mod quantity;
 mod screen;
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Examples(arguments) => commands::examples::run(&arguments),
+        Command::View(arguments) => commands::view::run(&arguments),
         Command::Schema => commands::schema::run(),
         Command::Completions(arguments) => commands::completions::run(&arguments),
     };

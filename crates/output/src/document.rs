@@ -2,6 +2,7 @@
 
 use crate::contact::ContactDocument;
 use crate::derivatives::{compliances, elasticities, motions, sensitivities};
+use crate::scene::scene;
 use crate::wire::{
     BeamDocument, BodyDocument, CableDocument, CouplingDocument, Document, EquilibriumDocument,
     JointDocument, SpringDocument, StateDocument, TubesDocument, Value, WorkDocument,
@@ -61,6 +62,7 @@ pub fn document(
         stable: solution.stable,
         unstable_directions: solution.unstable_directions,
         stability_reason: solution.stability_reason.clone(),
+        scene: scene(model, solution)?,
     })
 }
 

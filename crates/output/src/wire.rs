@@ -1,6 +1,6 @@
 //! The result document's shape, field for field. SI units, quaternions as (w, x, y, z).
 
-use crate::{ContactDocument, Named};
+use crate::{ContactDocument, Named, SceneDocument};
 use serde::{Deserialize, Serialize};
 
 /// The result document of a solve.
@@ -92,6 +92,9 @@ pub struct Document {
     /// Why stability is not decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stability_reason: Option<String>,
+    /// What a picture needs besides.
+    #[serde(default)]
+    pub scene: SceneDocument,
 }
 
 /// The whole state of a mechanism, as in the result document of a solve.

@@ -14,7 +14,8 @@ use flexura::{Buckled, FileFamily};
 pub fn run(arguments: &BuckleArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
     let file = file.with_study("buckle", &flags(arguments)).map_err(|report| file_failure(&report))?;
-    let task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
+    let places = (arguments.output.as_deref(), arguments.report.as_deref());
+    let task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
     match task.model.studies.last().map(|study| (&study.name, &study.kind)) {
         Some((name, StudyKind::Buckle(buckle))) => task.deliver(study(&task, name, buckle)?),
         _ => Err(Failure::Machine(

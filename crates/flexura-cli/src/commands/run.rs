@@ -5,6 +5,7 @@ use crate::answer::{Answer, StudyDocument, Task, json};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::screen::{self, BOLD, styled};
+use crate::{files, page};
 use flexura::model::{Study, StudyKind};
 use flexura::modelfile::Document;
 use flexura::output::Named;
@@ -14,7 +15,8 @@ use std::path::Path;
 
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
-    let task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
+    let places = (arguments.output.as_deref(), arguments.report.as_deref());
+    let task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
     let studies = chosen(&task, arguments.study.as_deref())?;
     if !task.is_quiet {
         warn_about(&task.file, &[]);
@@ -28,7 +30,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
             continue;
         }
         let folder = task.folder.as_ref().map(|folder| folder.join(&study.name));
-        let mut answer = answer(&task, study, folder.as_deref())?;
+        let mut answer = task.with_text(answer(&task, study, folder.as_deref())?);
         let written = task.write(&mut answer, folder.as_deref()).map(drop);
         if !task.is_quiet && !task.is_json {
             let heading = styled(BOLD, &format!("study {}", study.name));
@@ -46,8 +48,8 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         failed.extend(failure.map(|failure| (study.name.as_str(), failure)));
         documents.extend(answer.document.map(|document| (study.name.clone(), document)));
     }
-    if task.is_json {
-        screen::print_table(&match (&arguments.study, documents.pop()) {
+    if task.is_json || task.page.is_some() {
+        let text = match (&arguments.study, documents.pop()) {
             (Some(_), Some((_, only))) => json(&only)?,
             (_, last) => {
                 documents.extend(last);
@@ -63,7 +65,16 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
                     studies: Named(documents),
                 })?
             }
-        })?;
+        };
+        if let Some(path) = &task.page {
+            files::replace(path, &page::of_text(&text)?)?;
+        }
+        if task.is_json {
+            screen::print_table(&text)?;
+        }
+    }
+    if !task.is_quiet {
+        task.tell_page();
     }
     end(failed, studies.len())
 }

@@ -21,7 +21,8 @@ const SAME: f64 = 1e-6;
 
 pub fn run(arguments: &SolveArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
-    let mut task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
+    let places = (arguments.output.as_deref(), arguments.report.as_deref());
+    let mut task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
     add_options(arguments, &mut task)?;
     let guesses = arguments.guesses.map(|guesses| (guesses, arguments.seed.unwrap_or(0)));
     let answer = study(&task, guesses)?;

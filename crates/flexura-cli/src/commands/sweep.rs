@@ -6,10 +6,12 @@ use crate::arguments::SweepArguments;
 use crate::failure::Failure;
 use crate::files::{self, Growing};
 use crate::progress::Counter;
-use crate::{interrupt, screen};
+use crate::{interrupt, page, screen};
 use flexura::model::{Model, visible};
 use flexura::modelfile::Document;
-use flexura::output::{Named, Value, csv_line};
+use flexura::output::{
+    LoadDocument, Named, OutputError, SceneDocument, StateDocument, Value, csv_line, loads, scene, shape_of,
+};
 use flexura::post::{OutputResult, OutputValue};
 use flexura::solution::Status;
 use flexura::{Axis, Interrupt, Options, Sample, SampleStatus, Sweep};
@@ -27,7 +29,12 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         options.tolerance = tolerance;
     }
     let axes = arguments.vary.iter().map(|text| Axis::parse(&model, text)).collect::<Result<Vec<_>, _>>();
-    let sweep = axes.and_then(|axes| Sweep::new(&file, overrides, axes, &options)).map_err(Failure::Input)?;
+    let mut sweep =
+        axes.and_then(|axes| Sweep::new(&file, overrides, axes, &options)).map_err(Failure::Input)?;
+    if let Some(path) = &arguments.report {
+        page::begin(path)?;
+        sweep = sweep.with_shapes(model.beams.len());
+    }
     let table = Table::new(&model, sweep.axes());
     // Hours of work should not end at a folder that is not there.
     let rows = match arguments.output.as_deref() {
@@ -53,12 +60,13 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     counter.finish();
 
     let rows = rows.into_inner().unwrap_or_else(PoisonError::into_inner);
-    deliver(arguments, &table, &samples, rows)
+    deliver(arguments, &file, &table, &samples, rows)
 }
 
 /// Writes the whole table, prints what is to be printed, and ends as the samples did.
 fn deliver(
     arguments: &SweepArguments,
+    file: &Document,
     table: &Table<'_>,
     samples: &[Sample],
     rows: Rows,
@@ -69,9 +77,17 @@ fn deliver(
     if unwritten.is_none() {
         rows.finish(samples, |sample| table.row(sample))?;
     }
-    if arguments.model.json {
-        screen::print_table(&json(&SweepDocument::new(table, samples))?)?;
-    } else if unwritten.is_some() {
+    if arguments.model.json || arguments.report.is_some() {
+        let document = SweepDocument::new(file, table, samples);
+        let text = json(&document.map_err(|error| Failure::Machine(error.to_string()))?)?;
+        if let Some(path) = &arguments.report {
+            files::replace(path, &page::of_text(&text)?)?;
+        }
+        if arguments.model.json {
+            screen::print_table(&text)?;
+        }
+    }
+    if unwritten.is_some() && !arguments.model.json {
         // What has no room on the disk is shown nevertheless.
         screen::print_table(&whole())?;
     }
@@ -84,6 +100,9 @@ fn deliver(
     if let (Some(path), false) = (path, arguments.model.quiet) {
         let path = path.to_string_lossy();
         screen::note(&format!("wrote {} samples into {}", samples.len(), visible(&path)));
+    }
+    if let (Some(path), false) = (&arguments.report, arguments.model.quiet) {
+        screen::note(&format!("wrote {}", visible(&path.to_string_lossy())));
     }
     complaint(samples).map_or(Ok(()), Err)
 }
@@ -291,6 +310,9 @@ struct SweepDocument<'a> {
     status: &'static str,
     vary: Named<&'a [f64]>,
     samples: Vec<SampleDocument<'a>>,
+    /// What a picture needs besides; where shapes are kept.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scene: Option<SceneDocument>,
 }
 
 #[derive(Serialize)]
@@ -310,12 +332,20 @@ struct SampleDocument<'a> {
     unstable_directions: Option<usize>,
     energy: Option<f64>,
     error_estimate: Option<f64>,
+    /// The state with few samples, rounded, for pictures.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shape: Option<StateDocument>,
+    /// Loads that are not as in the scene.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    loads: Named<LoadDocument>,
 }
 
 impl<'a> SweepDocument<'a> {
-    fn new(table: &'a Table<'a>, samples: &'a [Sample]) -> Self {
+    fn new(file: &Document, table: &'a Table<'a>, samples: &'a [Sample]) -> Result<Self, OutputError> {
+        let first = samples.iter().find_map(|sample| sample.shape.as_deref());
+        let scene = first.map(|(model, solution)| scene(model, solution)).transpose()?;
         let name = |axis: &Axis| axis.parameter.clone();
-        Self {
+        Ok(Self {
             flexura: env!("CARGO_PKG_VERSION"),
             model: &table.model.name,
             study: "sweep",
@@ -325,13 +355,18 @@ impl<'a> SweepDocument<'a> {
                 () => "incomplete",
             },
             vary: Named(table.axes.iter().map(|axis| (name(axis), axis.values.as_slice())).collect()),
-            samples: samples.iter().map(|sample| SampleDocument::new(table, sample)).collect(),
-        }
+            samples: samples
+                .iter()
+                .map(|sample| SampleDocument::new(table, sample, first.map(|(model, _)| model)))
+                .collect::<Result<_, _>>()?,
+            scene: scene.map(|scene| SceneDocument { text: Some(file.text().to_owned()), ..scene }),
+        })
     }
 }
 
 impl<'a> SampleDocument<'a> {
-    fn new(table: &Table<'a>, sample: &'a Sample) -> Self {
+    fn new(table: &Table<'a>, sample: &'a Sample, first: Option<&Model>) -> Result<Self, OutputError> {
+        let shape = sample.shape.as_deref();
         let model = table.model;
         let output_name = |position: usize| model.outputs[position].name.clone();
         let value = |output: &OutputResult| match output.value {
@@ -340,7 +375,7 @@ impl<'a> SampleDocument<'a> {
         };
         let outputs = sample.outputs.iter().enumerate();
         let names = table.axes.iter().map(|axis| axis.parameter.clone());
-        Self {
+        Ok(Self {
             parameters: Named(names.zip(sample.values.iter().copied()).collect()),
             status: sample.status.word(),
             reason: sample.reason.as_deref(),
@@ -357,6 +392,11 @@ impl<'a> SampleDocument<'a> {
             unstable_directions: sample.unstable_directions,
             energy: sample.energy,
             error_estimate: sample.error_estimate,
-        }
+            shape: shape.map(|(model, solution)| shape_of(model, solution)).transpose()?,
+            loads: match (first, shape) {
+                (Some(first), Some((model, _))) => loads(first, model)?,
+                _ => Named::default(),
+            },
+        })
     }
 }

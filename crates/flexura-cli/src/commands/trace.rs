@@ -19,7 +19,8 @@ use std::path::Path;
 pub fn run(arguments: &TraceArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
     let file = file.with_study("trace", &flags(arguments)).map_err(|report| file_failure(&report))?;
-    let task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
+    let places = (arguments.output.as_deref(), arguments.report.as_deref());
+    let task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
     match task.model.studies.last().map(|study| (&study.name, &study.kind)) {
         Some((name, StudyKind::Trace(trace))) => {
             task.deliver(study(&task, name, trace, task.folder.as_deref())?)

@@ -27,8 +27,6 @@ const BAR: f64 = 180.0;
 const AMPLITUDE: f64 = 0.12;
 /// Most by which a curve turns between two knots, rad.
 const TURN: f64 = 0.3;
-/// Extents below this part of the largest are none.
-const FLAT: f64 = 1e-4;
 
 /// A state of the path as it is drawn.
 struct State {
@@ -53,7 +51,7 @@ pub fn shapes_svg(view: &TraceView<'_>) -> String {
         entries.push(Entry::Unstable);
     }
     let bounds = joined(states.iter().map(|state| &state.scene));
-    let sheet = sheet(bounds, BAR + 40.0 + LEGEND_LINE * entries.len() as f64);
+    let sheet = Sheet::of(bounds, BAR + 40.0 + LEGEND_LINE * entries.len() as f64);
     let mut canvas = Canvas::new(sheet.width, sheet.height);
     let shown = shortened(name, LONG_NAME);
     let text = format!("shapes as {shown} changes; displacements to scale");
@@ -137,7 +135,7 @@ pub fn modes_svg(model: &Model, buckling: &Buckling) -> String {
         Entry::Mode(i, format!("{}: {}{remark}", i + 1, shown(mode.value, unit, 5)))
     }));
     let bounds = joined(scenes.iter().chain([&base]));
-    let sheet = sheet(bounds, LEGEND_LINE * (entries.len() + 1) as f64);
+    let sheet = Sheet::of(bounds, LEGEND_LINE * (entries.len() + 1) as f64);
     let mut canvas = Canvas::new(sheet.width, sheet.height);
     let what = match buckling.parameter {
         Some(_) => format!("critical values of {}", shortened(name, LONG_NAME)),
@@ -187,19 +185,6 @@ fn joined<'a>(scenes: impl Iterator<Item = &'a Scene>) -> [Vector3<f64>; 2] {
     bounds.reduce(|[a, b], [low, high]| [a.inf(&low), b.sup(&high)]).unwrap_or([Vector3::zeros(); 2])
 }
 
-/// One view of a mechanism that stays in a plane, three of another.
-fn sheet(bounds: [Vector3<f64>; 2], legend_height: f64) -> Sheet {
-    let extent = bounds[1] - bounds[0];
-    let is_flat = |axis: usize| extent[axis] <= FLAT * extent.max();
-    // Of a straight one, the view from the front.
-    match [1, 2, 0].into_iter().find(|axis| is_flat(*axis)) {
-        Some(1) => Sheet::single(bounds, [0, 2], legend_height),
-        Some(2) => Sheet::single(bounds, [0, 1], legend_height),
-        Some(_) => Sheet::single(bounds, [1, 2], legend_height),
-        None => Sheet::new(bounds, (legend_height / LEGEND_LINE).ceil() as usize),
-    }
-}
-
 fn head(canvas: &mut Canvas, sheet: &Sheet, model: &Model, status: Status, text: &str) {
     let room = (sheet.width - sheet.left) / 9.5;
     canvas.heading([sheet.left, 26.0], &shortened(title(model), room as usize), 16.0);
@@ -228,7 +213,7 @@ fn draw_state(
 ) {
     let style = |width: f64| Style::line(colour.to_owned(), width).dashed(dashes);
     for spring in &scene.springs {
-        canvas.polyline(spring.iter().map(|point| panel.point(point)), &style(0.4 * width));
+        canvas.polyline(spring.course.iter().map(|point| panel.point(point)), &style(0.4 * width));
     }
     for cable in &scene.cables {
         canvas.polyline(cable.course.iter().map(|point| panel.point(point)), &style(0.5 * width));

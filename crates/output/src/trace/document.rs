@@ -9,12 +9,15 @@ use crate::document::{
     all_finite, error_estimate, finite, output_reasons, outputs, parameters, reasons_by_name, residual,
     state_document, work,
 };
+use crate::scene::{loads, scene};
+use crate::thin::shape_of;
 use crate::wire::Value;
 use crate::{Named, OutputError};
 use flexura_model::Model;
 use flexura_post::{Evaluation, evaluate_each};
 use flexura_solution::{
-    Branch, BranchEnd, BranchOrigin, Buckling, CriticalCurve, Direction, PointKind, Status, TracePoint,
+    Branch, BranchEnd, BranchOrigin, Buckling, CriticalCurve, Direction, PointKind, Solution, Status,
+    TracePoint,
 };
 
 /// The result document of a trace.
@@ -46,7 +49,18 @@ pub fn trace_document(view: &TraceView<'_>) -> Result<TraceDocument, OutputError
             residuals: counted.residuals,
             inertias: counted.inertias,
         },
+        scene: first_state(view).map(|(model, solution)| scene(model, solution)).transpose()?,
     })
+}
+
+/// The first state that is kept, with its model.
+fn first_state<'v>(view: &'v TraceView<'_>) -> Option<(&'v Model, &'v Solution)> {
+    let branches = view.trace.branches.iter().enumerate();
+    let mut states = branches.flat_map(|(b, branch)| {
+        let points = branch.points.iter().enumerate();
+        points.filter_map(move |(p, point)| Some((view.model_at(b, p), point.solution.as_deref()?)))
+    });
+    states.next()
 }
 
 fn branch_document(
@@ -109,6 +123,8 @@ fn point_document(
         .solution
         .as_ref()
         .map(|solution| state_document(model, solution, &evaluate_each(model, solution)));
+    let shape = point.shape.as_ref().map(|shape| shape_of(model, shape));
+    let shown = first_state(view).filter(|_| point.solution.is_some() || point.shape.is_some());
     let directions = point.directions.iter().map(|direction| shape_document(model, direction));
     Ok(PointDocument {
         second_parameter: None,
@@ -128,6 +144,8 @@ fn point_document(
             .then(|| finite(point.error_estimate, || format!("{path}.error_estimate")))
             .transpose()?,
         state: state.transpose().map_err(within)?,
+        shape: shape.transpose().map_err(within)?,
+        loads: shown.map(|(first, _)| loads(first, model)).transpose().map_err(within)?.unwrap_or_default(),
         directions: directions.collect::<Result<_, _>>().map_err(within)?,
     })
 }
@@ -212,6 +230,7 @@ pub fn buckling_document(
         unstable_directions: solution.unstable_directions,
         stability_reason: solution.stability_reason.clone(),
         work: work(&solution.work),
+        scene: scene(model, solution)?,
     })
 }
 

@@ -135,6 +135,7 @@ fn report(
         stable: None,
         unstable_directions: None,
         solution: None,
+        shape: None,
         directions: Vec::new(),
     };
     // The ends of the range are met exactly.

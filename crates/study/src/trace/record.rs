@@ -31,6 +31,8 @@ pub(crate) struct Reader {
     pub watched: Vec<Target>,
     /// Samples along each beam of a state that is kept.
     pub samples: usize,
+    /// Samples along each beam of a shape; zero for no shapes.
+    pub shapes: usize,
 }
 
 impl Reader {
@@ -93,6 +95,11 @@ impl Reader {
             None => Some(traced.undecided.clone().unwrap_or_else(|| CRITICAL.to_string())),
         };
         solution
+    }
+
+    /// The present state with few samples.
+    pub fn shape(&self, traced: &mut Traced<'_>) -> Solution {
+        traced.prepared.problem.sampled(self.shapes, true, |_| true)
     }
 
     /// A small motion along a step of the state, sampled like a whole state.
@@ -173,6 +180,7 @@ pub(crate) fn regular(value: f64, place: &Place, reading: Reading, error: f64) -
         stable: place.index.map(|count| count == 0),
         unstable_directions: place.index,
         solution: None,
+        shape: None,
         directions: Vec::new(),
     }
 }
