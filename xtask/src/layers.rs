@@ -11,7 +11,7 @@ const FLOORS: &[&[&str]] = &[
     &["modelfile", "equilibrium", "post"],
     &["study"],
     &["output"],
-    &["report"],
+    &["report", "raster"],
     &["flexura"],
     &["flexura-cli"],
 ];

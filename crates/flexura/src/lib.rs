@@ -153,6 +153,7 @@ pub use flexura_model as model;
 pub use flexura_modelfile as modelfile;
 pub use flexura_output as output;
 pub use flexura_post as post;
+pub use flexura_raster as raster;
 pub use flexura_report as report;
 pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;

@@ -3,6 +3,7 @@
 use crate::contact::ContactDocument;
 use crate::derivatives::{compliances, elasticities, motions, sensitivities};
 use crate::scene::scene;
+use crate::thin::shape_of;
 use crate::wire::{
     BeamDocument, BodyDocument, CableDocument, CouplingDocument, Document, EquilibriumDocument,
     JointDocument, SpringDocument, StateDocument, TubesDocument, Value, WorkDocument,
@@ -127,6 +128,7 @@ pub fn equilibrium_document(
         output_reasons: output_reasons(evaluation),
         bodies: bodies(model, solution)?,
         joints: joints(model, solution)?,
+        shape: Some(shape_of(model, solution)?),
     })
 }
 

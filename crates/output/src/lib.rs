@@ -32,7 +32,7 @@ pub use read::{ReadError, read_document, solution_of};
 pub use scene::{
     BeamScene, BodyScene, BoundariesScene, BoundaryScene, CableScene, DistributedScene, FoundationScene,
     HoldScene, JointScene, LoadDocument, LoadScene, MassScene, PlaceDocument, SceneDocument, SpringScene,
-    TubeScene, TubesScene, UnitsDocument, WrapScene, loads, scene,
+    TubeScene, TubesScene, UnitsDocument, WrapScene, loads, scene, scene_beside,
 };
 pub use svg::{diagram_svg, modes_svg, motion_svg, shape_svg, shapes_svg};
 pub use thin::shape_of;

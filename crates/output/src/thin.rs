@@ -72,7 +72,7 @@ fn of_list(list: &mut Vec<[f64; 3]>) {
 }
 
 /// To so many digits, by way of the text, so that the shortest text of the result is as short.
-fn round(value: &mut f64) {
+pub(crate) fn round(value: &mut f64) {
     if let Ok(short) = format!("{value:.*e}", DIGITS - 1).parse() {
         *value = short;
     }

@@ -98,7 +98,7 @@ pub struct Document {
 }
 
 /// The whole state of a mechanism, as in the result document of a solve.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StateDocument {
     /// The beams' states at their samples.
     pub beams: Named<BeamDocument>,
@@ -296,4 +296,7 @@ pub struct EquilibriumDocument {
     pub bodies: Named<BodyDocument>,
     /// The joints' states.
     pub joints: Named<JointDocument>,
+    /// The whole state, rounded, for pictures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<StateDocument>,
 }

@@ -10,7 +10,8 @@ use crate::{interrupt, page, screen};
 use flexura::model::{Model, visible};
 use flexura::modelfile::Document;
 use flexura::output::{
-    LoadDocument, Named, OutputError, SceneDocument, StateDocument, Value, csv_line, loads, scene, shape_of,
+    LoadDocument, Named, OutputError, SceneDocument, StateDocument, Value, csv_line, loads, scene,
+    scene_beside, shape_of,
 };
 use flexura::post::{OutputResult, OutputValue};
 use flexura::solution::Status;
@@ -33,6 +34,8 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         axes.and_then(|axes| Sweep::new(&file, overrides, axes, &options)).map_err(Failure::Input)?;
     if let Some(path) = &arguments.report {
         page::begin(path)?;
+    }
+    if arguments.report.is_some() || arguments.model.json {
         sweep = sweep.with_shapes(model.beams.len());
     }
     let table = Table::new(&model, sweep.axes());
@@ -308,6 +311,9 @@ struct SweepDocument<'a> {
     model: &'a str,
     study: &'static str,
     status: &'static str,
+    /// Of the mechanism; those of samples stand there.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    warnings: &'a [String],
     vary: Named<&'a [f64]>,
     samples: Vec<SampleDocument<'a>>,
     /// What a picture needs besides; where shapes are kept.
@@ -335,6 +341,9 @@ struct SampleDocument<'a> {
     /// The state with few samples, rounded, for pictures.
     #[serde(skip_serializing_if = "Option::is_none")]
     shape: Option<StateDocument>,
+    /// Where more than loads is varied: what a picture of this sample needs besides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scene: Option<SceneDocument>,
     /// Loads that are not as in the scene.
     #[serde(skip_serializing_if = "Named::is_empty")]
     loads: Named<LoadDocument>,
@@ -344,6 +353,7 @@ impl<'a> SweepDocument<'a> {
     fn new(file: &Document, table: &'a Table<'a>, samples: &'a [Sample]) -> Result<Self, OutputError> {
         let first = samples.iter().find_map(|sample| sample.shape.as_deref());
         let scene = first.map(|(model, solution)| scene(model, solution)).transpose()?;
+        let beside = first.map(|(model, _)| model).zip(scene.as_ref());
         let name = |axis: &Axis| axis.parameter.clone();
         Ok(Self {
             flexura: env!("CARGO_PKG_VERSION"),
@@ -354,10 +364,11 @@ impl<'a> SweepDocument<'a> {
                 () if samples.iter().all(|sample| sample.status.is_converged()) => "converged",
                 () => "incomplete",
             },
+            warnings: &table.known,
             vary: Named(table.axes.iter().map(|axis| (name(axis), axis.values.as_slice())).collect()),
             samples: samples
                 .iter()
-                .map(|sample| SampleDocument::new(table, sample, first.map(|(model, _)| model)))
+                .map(|sample| SampleDocument::new(table, sample, beside))
                 .collect::<Result<_, _>>()?,
             scene: scene.map(|scene| SceneDocument { text: Some(file.text().to_owned()), ..scene }),
         })
@@ -365,8 +376,21 @@ impl<'a> SweepDocument<'a> {
 }
 
 impl<'a> SampleDocument<'a> {
-    fn new(table: &Table<'a>, sample: &'a Sample, first: Option<&Model>) -> Result<Self, OutputError> {
+    fn new(
+        table: &Table<'a>,
+        sample: &'a Sample,
+        first: Option<(&Model, &SceneDocument)>,
+    ) -> Result<Self, OutputError> {
         let shape = sample.shape.as_deref();
+        let (scene, loads) = match (first, shape) {
+            (Some((first, scene)), Some((model, solution))) => {
+                match scene_beside(scene, model, solution)? {
+                    Some(scene) => (Some(scene), Named::default()),
+                    None => (None, loads(first, model)?),
+                }
+            }
+            _ => (None, Named::default()),
+        };
         let model = table.model;
         let output_name = |position: usize| model.outputs[position].name.clone();
         let value = |output: &OutputResult| match output.value {
@@ -393,10 +417,8 @@ impl<'a> SampleDocument<'a> {
             energy: sample.energy,
             error_estimate: sample.error_estimate,
             shape: shape.map(|(model, solution)| shape_of(model, solution)).transpose()?,
-            loads: match (first, shape) {
-                (Some(first), Some((model, _))) => loads(first, model)?,
-                _ => Named::default(),
-            },
+            scene,
+            loads,
         })
     }
 }

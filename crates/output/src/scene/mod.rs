@@ -1,10 +1,12 @@
 //! What a picture of a mechanism needs besides its states: sections, rest shapes, holds, joints with their axes and
 //! boundaries, springs, cables, loads, and what every number is measured in. SI units, quaternions as (w, x, y, z).
 
+mod beside;
 mod build;
 mod contact;
 mod sections;
 
+pub use beside::scene_beside;
 pub use build::{loads, scene};
 pub(crate) use contact::boundaries;
 
@@ -12,7 +14,7 @@ use crate::Named;
 use serde::{Deserialize, Serialize};
 
 /// A mechanism as it is drawn; where things are follows from a state.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SceneDocument {
     /// SI unit of every output and parameter; "" for a plain number.
@@ -46,7 +48,7 @@ pub struct SceneDocument {
 }
 
 /// SI units as text.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct UnitsDocument {
     /// Of outputs.
@@ -56,7 +58,7 @@ pub struct UnitsDocument {
 }
 
 /// A place fixed on something: on a body, on a beam's section, or, where neither is named, on the ground.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PlaceDocument {
     /// Name of the body.
@@ -76,7 +78,7 @@ pub struct PlaceDocument {
 }
 
 /// A beam: its section along it, and where it lies at rest.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeamScene {
     /// Name of its section.
     pub section: String,
@@ -118,7 +120,7 @@ pub struct BeamScene {
 }
 
 /// What holds the end of a beam.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HoldScene {
     /// Kind of joint; "weld" is a clamp.
     pub kind: String,
@@ -129,7 +131,7 @@ pub struct HoldScene {
 }
 
 /// A load per length, at a few places along the beam.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DistributedScene {
     /// "global" or "section".
     pub frame: String,
@@ -142,7 +144,7 @@ pub struct DistributedScene {
 }
 
 /// An elastic foundation.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FoundationScene {
     /// From where to where, m.
     pub between: [f64; 2],
@@ -154,7 +156,7 @@ pub struct FoundationScene {
 }
 
 /// A body before anything is loaded.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyScene {
     /// Global, m.
     pub position: [f64; 3],
@@ -167,7 +169,7 @@ pub struct BodyScene {
 }
 
 /// A joint.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointScene {
     /// Its kind, in the words of the model file.
     pub kind: String,
@@ -187,7 +189,7 @@ pub struct JointScene {
 }
 
 /// Two boundaries that touch.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BoundariesScene {
     /// The moving one.
     pub child: BoundaryScene,
@@ -196,7 +198,7 @@ pub struct BoundariesScene {
 }
 
 /// A boundary as it is drawn, m.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "shape", rename_all = "snake_case")]
 pub enum BoundaryScene {
     /// A polygon along a curve.
@@ -228,7 +230,7 @@ pub enum BoundaryScene {
 }
 
 /// A spring.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpringScene {
     /// One end.
     pub from: PlaceDocument,
@@ -242,7 +244,7 @@ pub struct SpringScene {
 }
 
 /// Something round that a spring runs over.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WrapScene {
     /// Where its middle is.
     pub place: PlaceDocument,
@@ -254,7 +256,7 @@ pub struct WrapScene {
 }
 
 /// A cable.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CableScene {
     /// Points it runs through; of a channel, places along the beam's sections.
     pub route: Vec<PlaceDocument>,
@@ -263,7 +265,7 @@ pub struct CableScene {
 }
 
 /// Concentric tubes, the innermost first.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TubesScene {
     /// The mouth of their guide, x along the tubes.
     pub base: PlaceDocument,
@@ -276,7 +278,7 @@ pub struct TubesScene {
 }
 
 /// One of concentric tubes.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TubeScene {
     /// Where it ends on the common axis, m.
     pub reach: f64,
@@ -285,7 +287,7 @@ pub struct TubeScene {
 }
 
 /// A mass on a beam.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MassScene {
     /// Where it sits.
     pub place: PlaceDocument,
@@ -294,7 +296,7 @@ pub struct MassScene {
 }
 
 /// A point force and moment, all of it.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoadScene {
     /// Where it acts.
     pub place: PlaceDocument,

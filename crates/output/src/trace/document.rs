@@ -9,7 +9,7 @@ use crate::document::{
     all_finite, error_estimate, finite, output_reasons, outputs, parameters, reasons_by_name, residual,
     state_document, work,
 };
-use crate::scene::{loads, scene};
+use crate::scene::{SceneDocument, loads, scene, scene_beside};
 use crate::thin::shape_of;
 use crate::wire::Value;
 use crate::{Named, OutputError};
@@ -26,7 +26,12 @@ use flexura_solution::{
 /// [`OutputError::NotFinite`] names the first number that is NaN or infinite.
 pub fn trace_document(view: &TraceView<'_>) -> Result<TraceDocument, OutputError> {
     let trace = view.trace;
-    let branches = trace.branches.iter().enumerate().map(|(i, branch)| branch_document(view, i, branch));
+    let first = First::of(view)?;
+    let first = first.as_ref();
+    let branches = trace.branches.iter().enumerate();
+    let branches = branches.map(|(i, branch)| branch_document(view, first, i, branch)).collect::<Result<_, _>>()?;
+    let critical =
+        trace.critical.as_ref().map(|curve| critical_document(view, first, curve)).transpose()?;
     let counted = trace.work;
     Ok(TraceDocument {
         flexura: env!("CARGO_PKG_VERSION").to_owned(),
@@ -39,8 +44,8 @@ pub fn trace_document(view: &TraceView<'_>) -> Result<TraceDocument, OutputError
         range: all_finite(trace.range, || "range".into())?,
         parameters: parameters(view.model)?,
         stability_reason: trace.stability_reason.clone(),
-        branches: branches.collect::<Result<_, _>>()?,
-        critical: trace.critical.as_ref().map(|curve| critical_document(view, curve)).transpose()?,
+        branches,
+        critical,
         work: TraceWorkDocument {
             points: counted.points,
             refused: counted.refused,
@@ -49,8 +54,21 @@ pub fn trace_document(view: &TraceView<'_>) -> Result<TraceDocument, OutputError
             residuals: counted.residuals,
             inertias: counted.inertias,
         },
-        scene: first_state(view).map(|(model, solution)| scene(model, solution)).transpose()?,
+        scene: first.map(|first| first.scene.clone()),
     })
+}
+
+/// The first state that is kept: what is drawn of others is told beside it.
+struct First<'v> {
+    model: &'v Model,
+    scene: SceneDocument,
+}
+
+impl<'v> First<'v> {
+    fn of(view: &'v TraceView<'_>) -> Result<Option<Self>, OutputError> {
+        let Some((model, solution)) = first_state(view) else { return Ok(None) };
+        Ok(Some(Self { model, scene: scene(model, solution)? }))
+    }
 }
 
 /// The first state that is kept, with its model.
@@ -65,6 +83,7 @@ fn first_state<'v>(view: &'v TraceView<'_>) -> Option<(&'v Model, &'v Solution)>
 
 fn branch_document(
     view: &TraceView<'_>,
+    first: Option<&First<'_>>,
     number: usize,
     branch: &Branch,
 ) -> Result<BranchDocument, OutputError> {
@@ -74,7 +93,7 @@ fn branch_document(
     };
     let points = branch.points.iter().enumerate().map(|(i, point)| {
         let path = format!("branches[{number}].points[{i}]");
-        point_document(view, &path, point, view.model_at(number, i))
+        point_document(view, first, &path, point, view.model_at(number, i))
     });
     Ok(BranchDocument {
         origin: branch.origin.word(),
@@ -86,10 +105,14 @@ fn branch_document(
     })
 }
 
-fn critical_document(view: &TraceView<'_>, curve: &CriticalCurve) -> Result<CriticalDocument, OutputError> {
+fn critical_document(
+    view: &TraceView<'_>,
+    first: Option<&First<'_>>,
+    curve: &CriticalCurve,
+) -> Result<CriticalDocument, OutputError> {
     let points = curve.points.iter().enumerate().map(|(i, (value, point))| {
         let path = format!("critical.points[{i}]");
-        let mut document = point_document(view, &path, point, view.critical_model(i))?;
+        let mut document = point_document(view, first, &path, point, view.critical_model(i))?;
         document.second_parameter = Some(finite(*value, || format!("{path}.second_parameter"))?);
         Ok::<_, OutputError>(document)
     });
@@ -113,6 +136,7 @@ fn end_reasons(ends: &[BranchEnd; 2]) -> [Option<String>; 2] {
 
 fn point_document(
     view: &TraceView<'_>,
+    first: Option<&First<'_>>,
     path: &str,
     point: &TracePoint,
     model: &Model,
@@ -124,7 +148,14 @@ fn point_document(
         .as_ref()
         .map(|solution| state_document(model, solution, &evaluate_each(model, solution)));
     let shape = point.shape.as_ref().map(|shape| shape_of(model, shape));
-    let shown = first_state(view).filter(|_| point.solution.is_some() || point.shape.is_some());
+    let shown = point.solution.as_deref().or(point.shape.as_deref());
+    let (scene, loads) = match (first, shown) {
+        (Some(first), Some(shown)) => match scene_beside(&first.scene, model, shown).map_err(within)? {
+            Some(scene) => (Some(scene), Named::default()),
+            None => (None, loads(first.model, model).map_err(within)?),
+        },
+        _ => (None, Named::default()),
+    };
     let directions = point.directions.iter().map(|direction| shape_document(model, direction));
     Ok(PointDocument {
         second_parameter: None,
@@ -145,7 +176,8 @@ fn point_document(
             .transpose()?,
         state: state.transpose().map_err(within)?,
         shape: shape.transpose().map_err(within)?,
-        loads: shown.map(|(first, _)| loads(first, model)).transpose().map_err(within)?.unwrap_or_default(),
+        scene,
+        loads,
         directions: directions.collect::<Result<_, _>>().map_err(within)?,
     })
 }

@@ -102,6 +102,9 @@ pub struct PointDocument {
     /// Where the whole state is not kept: the state with fewer samples, rounded, for pictures.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<StateDocument>,
+    /// Where the parameter changes more than loads: what a picture of this state needs besides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scene: Option<SceneDocument>,
     /// Loads that are not as in the scene, of a point with a state or a shape.
     #[serde(skip_serializing_if = "Named::is_empty")]
     pub loads: Named<LoadDocument>,
