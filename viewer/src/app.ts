@@ -25,6 +25,16 @@ import type { View } from "./view/viewport";
 const LOOKED_AT = 60;
 /** The largest displacement of a mode, as a part of the mechanism's size. */
 const SWING = 0.12;
+const OPPOSITE: Record<View, View> = {
+  front: "back",
+  back: "front",
+  left: "right",
+  right: "left",
+  top: "bottom",
+  bottom: "top",
+  space: "space",
+  own: "own",
+};
 /** Displacements below this part of the size are too small to be seen. */
 const UNSEEN = 0.02;
 
@@ -38,10 +48,13 @@ export class App {
   phase = 1;
   magnification = 1;
   proposal = 1;
-  private rest!: State;
+  /** Size of glyphs, m. */
+  private glyph = 0;
   private box = new Box();
   private plots: (Plot | Parallel)[] = [];
   private range: [number, number] | null = null;
+  /** What stands on the picture, for those who do not see it. */
+  private readonly said = h("p", { class: "aside", id: "said", role: "status" });
   private readonly side: Side;
   private readonly tools: Tools;
   private timer = 0;
@@ -70,7 +83,7 @@ export class App {
       "aria-label": "the mechanism; arrow keys turn it, plus and minus zoom, F fits it into view",
       keydown: (event) => this.key(event as KeyboardEvent),
     });
-    const stage = h("div", { class: "stage", id: "stage" }, canvas, overlay);
+    const stage = h("div", { class: "stage", id: "stage" }, canvas, overlay, this.said);
     this.tools = new Tools(this);
     this.side = new Side(this);
     const title = h("h1", {}, document_.model || "mechanism");
@@ -88,13 +101,12 @@ export class App {
   open(index: number): void {
     this.stop();
     this.study = this.studies[index]![1];
-    this.rest = restOf(this.study.scene);
     this.mode = 0;
     this.phase = this.study.modes.length > 0 ? 1 : 0;
     const spot = this.firstSpot();
     this.spot = spot;
     const known = QUANTITIES.filter(({ key }) => rangeOf(this.study, key) !== null);
-    this.options.quantity = known.some(({ key }) => key === "stress") ? "stress" : (known.find(({ key }) => key === "moment")?.key ?? "");
+    this.options.quantity = this.telling(known.map(({ key }) => key));
     this.tools.fill(known);
     this.measure();
     this.propose();
@@ -104,17 +116,32 @@ export class App {
     const choose = (chosen: Spot): void => this.go(chosen);
     if (hosts.plot) this.plots.push(new Plot(hosts.plot, this.study, this.theme, choose));
     if (hosts.parallel) this.plots.push(new Parallel(hosts.parallel, this.study, this.theme, choose));
-    this.viewport.overlay.gravity = this.study.scene.gravity;
     this.viewport.fit(this.box, "own");
     this.go(spot);
   }
 
-  /** The last point of the first branch that can be shown, or of a sweep the first. */
+  /** Where a path ends, on the first branch that does so in a stable state, or where the last one was stable; of other studies the first point. */
   private firstSpot(): Spot {
-    const points = this.study.branches[0]?.points ?? [];
-    const shown = points.map((point, i) => (point.state ? i : -1)).filter((i) => i >= 0);
-    const pick = this.study.isJoined && this.study.kind !== "inverse_dynamics" ? shown[shown.length - 1] : shown[0];
-    return { branch: 0, point: pick ?? 0 };
+    const { branches, isJoined, kind } = this.study;
+    if (!isJoined || kind === "inverse_dynamics") return { branch: 0, point: this.shown(0)[0] ?? 0 };
+    const last = (branch: number, isFit: (point: Point) => boolean): Spot[] => {
+      const point = this.shown(branch).findLast((i) => isFit(branches[branch]!.points[i]!));
+      return point === undefined ? [] : [{ branch, point }];
+    };
+    const ends = branches.flatMap((_, i) => last(i, () => true));
+    const stable = branches.flatMap((_, i) => last(i, (point) => point.stable === true));
+    const isEnd = (spot: Spot): boolean => ends.some((end) => end.branch === spot.branch && end.point === spot.point);
+    return stable.find(isEnd) ?? stable.at(-1) ?? ends[0] ?? { branch: 0, point: 0 };
+  }
+
+  /** What to colour by at first: stress, or else what differs from place to place. */
+  private telling(known: string[]): string {
+    const varies = (key: string): boolean => {
+      const [low, high] = rangeOf(this.study, key) ?? [0, 0];
+      return high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high));
+    };
+    const wanted = ["stress", "moment", "curvature", "twist"].filter((key) => known.includes(key));
+    return wanted.find(varies) ?? wanted[0] ?? "";
   }
 
   get plot(): Plot | undefined {
@@ -131,9 +158,9 @@ export class App {
     return points.map((point, i) => (point.state ? i : -1)).filter((i) => i >= 0);
   }
 
-  /** Moves to a point, or to the nearest that can be shown. */
+  /** Moves to a point; of a path to the nearest that can be shown. */
   go(spot: Spot): void {
-    const shown = this.shown(spot.branch);
+    const shown = this.study.isJoined ? this.shown(spot.branch) : [spot.point];
     const nearest = shown.reduce((best, i) => (Math.abs(i - spot.point) < Math.abs(best - spot.point) ? i : best), shown[0] ?? spot.point);
     this.spot = { branch: spot.branch, point: shown.includes(spot.point) ? spot.point : nearest };
     for (const plot of this.plots) plot.mark(this.spot);
@@ -179,6 +206,11 @@ export class App {
 
   look(view: View): void {
     this.viewport.fit(this.box, view);
+  }
+
+  /** From the other side where the eye is there already. */
+  lookAgain(view: View): void {
+    this.look(this.viewport.view === view ? OPPOSITE[view] : view);
   }
 
   play(): void {
@@ -240,9 +272,9 @@ export class App {
       "=": () => this.viewport.move(0, 0, 1.15),
       "-": () => this.viewport.move(0, 0, 1 / 1.15),
       f: () => this.look("own"),
-      x: () => this.look("right"),
-      y: () => this.look("front"),
-      z: () => this.look("top"),
+      x: () => this.lookAgain("right"),
+      y: () => this.lookAgain("front"),
+      z: () => this.lookAgain("top"),
       i: () => this.look("space"),
       " ": () => this.play(),
     };
@@ -254,10 +286,10 @@ export class App {
 
   /** The state at the present point as it is seen. */
   seen(): State {
-    const state = this.point?.state?.() ?? this.rest;
+    const state = this.point?.state?.() ?? restOf(this.study.scene);
     const swinging = this.study.modes[this.mode];
     if (swinging) return swung(state, swinging.shape, this.phase * SWING * this.box.size);
-    return magnified(state, this.rest, this.magnification);
+    return magnified(state, restOf(state.scene), this.magnification);
   }
 
   private measure(): void {
@@ -265,12 +297,15 @@ export class App {
     const states = this.study.branches.flatMap((branch) => branch.points.filter((point) => point.state));
     const every = Math.max(1, Math.ceil(states.length / LOOKED_AT));
     const looked = states.filter((_, i) => i % every === 0 || i === states.length - 1);
-    for (const state of [this.rest, ...looked.map((point) => point.state!())]) {
-      for (const p of pointsOf(state, this.study.scene)) box.include(p);
+    const shown = looked.map((point) => point.state!());
+    for (const state of [restOf(this.study.scene), ...shown.flatMap((state) => [restOf(state.scene), state])]) {
+      for (const p of pointsOf(state)) box.include(p);
     }
     if (box.isEmpty) box.include([0, 0, 0]);
-    if (box.size === 0) for (const p of [[-1, -1, -1], [1, 1, 1]] as Vec[]) box.include(p);
+    const isPoint = box.size === 0;
+    if (isPoint) for (const p of [[-1, -1, -1], [1, 1, 1]] as Vec[]) box.include(p);
     this.box = box;
+    this.glyph = (isPoint ? 0.1 : 0.022) * box.size;
   }
 
   /** Where nothing could be seen, a factor that shows something; it is not set by itself. */
@@ -280,7 +315,8 @@ export class App {
       const shown = branch.points.filter((point) => point.state);
       const every = Math.max(1, Math.ceil(shown.length / LOOKED_AT));
       shown.filter((_, i) => i % every === 0 || i === shown.length - 1).forEach((point) => {
-        most = Math.max(most, largestDisplacement(point.state!(), this.rest));
+        const state = point.state!();
+        most = Math.max(most, largestDisplacement(state, restOf(state.scene)));
       });
     }
     this.magnification = 1;
@@ -299,14 +335,15 @@ export class App {
     const range = this.range;
     const size = this.box.size;
     const span = range ? range[1] - range[0] : 0;
+    const state = this.seen();
     const layers = layersOf({
-      state: this.seen(),
-      rest: this.rest,
-      scene: this.study.scene,
+      state,
+      rest: restOf(state.scene),
+      scene: state.scene,
       options: this.options,
       theme: this.theme,
       size,
-      g: 0.018 * size,
+      g: this.glyph,
       colourOf: (value) => valueColour(range && span > 0 ? (value - range[0]) / span : 0.5),
     });
     const overlay = this.viewport.overlay;
@@ -315,11 +352,13 @@ export class App {
     overlay.magnification = this.magnification;
     overlay.alarm = this.alarm();
     overlay.caption = this.caption();
+    overlay.gravity = state.scene.gravity;
+    this.said.textContent = [overlay.alarm, overlay.caption].filter(Boolean).join("; ");
     this.viewport.show(layers);
   }
 
   private alarm(): string {
-    if (this.point?.kind === "failed" && this.study.kind === "sweep") return "this sample did not converge";
+    if (this.point?.kind === "failed" && this.study.kind === "sweep") return `NOT CONVERGED: ${this.point.note || "this sample"}`;
     if (!this.study.branches.some((branch) => branch.points.some((point) => point.state))) {
       return "this result holds no shapes";
     }
@@ -342,6 +381,9 @@ export class App {
         .map(({ name, unit }, i) => (varied.includes(name) && i < varied.length ? `${name} = ${quantity(point.values[i], unit)}` : ""))
         .filter(Boolean)
         .join(", ");
+    }
+    if (study.kind === "critical") {
+      return study.columns.slice(0, 2).map(({ name, unit }, i) => `${name} = ${quantity(point.values[i], unit, 4)}`).join(", ");
     }
     const { name, unit } = study.columns[0]!;
     const special = point.kind === "fold" || point.kind === "branch" || point.kind === "event" ? `, ${point.kind === "branch" ? "branch point" : point.kind}` : "";

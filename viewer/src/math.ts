@@ -31,6 +31,11 @@ export function unit(a: Vec): Vec {
   return n > 1e-300 ? scale(a, 1 / n) : [1, 0, 0];
 }
 
+/** A unit vector across a direction, level where there is one. */
+export function level(axis: Vec): Vec {
+  return unit(Math.abs(axis[2]) < 0.9 ? cross([0, 0, 1], axis) : cross([0, 1, 0], axis));
+}
+
 /** A unit vector across a unit vector. */
 export function across(a: Vec): Vec {
   const other: Vec = Math.abs(a[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0];

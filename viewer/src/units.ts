@@ -35,6 +35,7 @@ export interface Scale {
 export function scaleOf(unit: string, largest: number): Scale {
   const size = Math.abs(largest);
   const own = unit.replace(/\*/g, "·");
+  if (own === "kg" && size < 1) return { factor: 1e3, unit: "g" };
   if (own === "rad") return { factor: 180 / Math.PI, unit: "°" };
   if (own === "" || !PREFIXED.test(own) || !(size > 0) || !Number.isFinite(size)) return { factor: 1, unit: own };
   if (own === "g" || own === "m") {

@@ -22,6 +22,8 @@ export interface Line {
 
 export interface State {
   document: StateDocument;
+  /** What is drawn besides; of a study whose parameter changes the mechanism each state has its own. */
+  scene: SceneDocument;
   lines: Map<string, Line>;
   bodies: Map<string, Pose>;
   /** Loads that differ from the scene's. */
@@ -85,11 +87,21 @@ export function stateOf(
   for (const [name, body] of Object.entries(document.bodies ?? {})) {
     bodies.set(name, { p: body.position, q: body.rotation });
   }
-  return { document, lines, bodies, loads, fraction, isTrue: true };
+  return { document, scene, lines, bodies, loads, fraction, isTrue: true };
 }
 
-/** The undeformed mechanism. */
+const rests = new WeakMap<SceneDocument, State>();
+
+/** The undeformed mechanism of a scene. */
 export function restOf(scene: SceneDocument): State {
+  const known = rests.get(scene);
+  if (known) return known;
+  const made = makeRest(scene);
+  rests.set(scene, made);
+  return made;
+}
+
+function makeRest(scene: SceneDocument): State {
   const lines = new Map<string, Line>();
   for (const [name, beam] of Object.entries(scene.beams)) {
     lines.set(name, { s: beam.s, p: beam.position, q: beam.rotation, values: {} });
@@ -98,7 +110,7 @@ export function restOf(scene: SceneDocument): State {
   for (const [name, body] of Object.entries(scene.bodies)) {
     bodies.set(name, { p: body.position, q: body.rotation });
   }
-  return { document: {}, lines, bodies, loads: {}, fraction: 0, isTrue: false };
+  return { document: {}, scene, lines, bodies, loads: {}, fraction: 0, isTrue: false };
 }
 
 /** A section between samples: the axis as the cubic with the sections' directions, values in straight lines. */
@@ -208,8 +220,17 @@ export function largestDisplacement(state: State, rest: State): number {
 }
 
 /** All points that a picture must hold. */
-export function* pointsOf(state: State, scene: SceneDocument): Generator<Vec> {
-  for (const line of state.lines.values()) yield* line.p;
+export function* pointsOf(state: State): Generator<Vec> {
+  const { scene } = state;
+  for (const [name, line] of state.lines) {
+    const beam = scene.beams[name];
+    const [y, z] = [beam?.width, beam?.height].map((list) => 0.5 * Math.max(0, ...(list ?? [])));
+    for (let i = 0; i < line.p.length; i++) {
+      yield line.p[i]!;
+      if (!y || !z) continue;
+      for (const [a, b] of [[y, z], [y, -z], [-y, z], [-y, -z]]) yield add(line.p[i]!, rotate(line.q[i]!, [0, a!, b!]));
+    }
+  }
   for (const pose of state.bodies.values()) yield pose.p;
   for (const joint of Object.values(scene.joints)) {
     yield poseOf(state, joint.parent).p;

@@ -2,7 +2,7 @@
 
 import type { Line, State } from "./state";
 import { stateOf } from "./state";
-import type { LoadDocuments, MotionShape, Names, ResultDocument, SceneDocument, StateDocument, Value } from "./types";
+import type { MotionShape, Names, ResultDocument, SceneDocument, ShownDocument, StateDocument, Value } from "./types";
 import type { Quat, Vec } from "../math";
 
 /** Something with a number at every point. */
@@ -100,8 +100,12 @@ const number = (value: unknown): number => (typeof value === "number" ? value : 
 /** The studies of a document: of `flexura run` all, by name, of others the one. */
 export function studiesOf(document: ResultDocument): [string, Study][] {
   const inner = document.studies as Names<ResultDocument> | undefined;
-  if (document.study === "run" && inner) return Object.entries(inner).map(([name, own]) => [name, studyOf(own)]);
-  return [[document.study, studyOf(document)]];
+  const named: [string, ResultDocument][] = document.study === "run" && inner ? Object.entries(inner) : [[document.study, document]];
+  return named.flatMap(([name, own]): [string, Study][] => {
+    const study = studyOf(own);
+    const critical = criticalOf(study);
+    return critical ? [[name, study], [`${name}, critical curve`, critical]] : [[name, study]];
+  });
 }
 
 export function studyOf(document: ResultDocument): Study {
@@ -146,7 +150,39 @@ function ofSolve(study: Study): Study {
     note: "",
     state: document.scene ? once(() => stateOf(document, scene, {}, fraction)) : null,
   };
-  return { ...study, columns: outputs.columns, branches: [{ label: "equilibrium", points: [point] }] };
+  const others = (document.equilibria as EquilibriumPoint[] | undefined) ?? [];
+  if (others.length === 0) return { ...study, columns: outputs.columns, branches: [{ label: "equilibrium", points: [point] }] };
+  return withOthers(study, point, others);
+}
+
+interface EquilibriumPoint extends ShownDocument {
+  energy: number;
+  stable: boolean | null;
+  outputs: Names<Value>;
+}
+
+/** Several equilibria under one load: each a branch of its own, to be chosen in the legend. */
+function withOthers(study: Study, rest: Point, others: EquilibriumPoint[]): Study {
+  const outputs = new Outputs([study.document.outputs, ...others.map((own) => own.outputs)], study.scene.units.outputs);
+  const first: Point = { ...rest, values: [...outputs.read(study.document.outputs), number(study.document.energy)] };
+  const branches = others.map((own, i): Branch => {
+    const values = [...outputs.read(own.outputs), number(own.energy)];
+    const word = own.stable === null ? "" : own.stable ? ", stable" : ", unstable";
+    const point: Point = { values, stable: own.stable, kind: "regular", note: "", state: stateAt(study, own, own.shape) };
+    return { label: `equilibrium ${i + 1}${word}`, points: [point] };
+  });
+  const columns = [...outputs.columns, { name: "strain energy", unit: "J" }];
+  const up = columns.length - 1;
+  return { ...study, columns, first: [0, up], branches: [{ label: "reached from rest", points: [first] }, ...branches], isJoined: false };
+}
+
+/** The state of a point, made when it is first looked at. */
+function stateAt(study: Study, own: ShownDocument, shape: StateDocument | undefined): (() => State) | null {
+  if (!shape || !study.document.scene) return null;
+  return once(() => {
+    const { units } = study.scene;
+    return stateOf(shape, own.scene ? { ...EMPTY, ...own.scene, units } : study.scene, own.loads ?? {});
+  });
 }
 
 function ofBuckling(study: Study): Study {
@@ -158,8 +194,9 @@ function ofBuckling(study: Study): Study {
   };
 }
 
-interface TracePoint extends StateDocument {
+interface TracePoint extends StateDocument, ShownDocument {
   parameter: number;
+  second_parameter?: number;
   arc: number;
   kind: string;
   crossing?: string;
@@ -167,8 +204,6 @@ interface TracePoint extends StateDocument {
   outputs: Names<Value>;
   stable: boolean | null;
   unstable_directions: number | null;
-  shape?: StateDocument;
-  loads?: LoadDocuments;
 }
 
 const ORIGINS: Names<string> = {
@@ -192,24 +227,44 @@ function ofTrace(study: Study): Study {
     ...outputs.columns,
     { name: "arc", unit: "" },
   ];
-  const pointOf = (point: TracePoint): Point => {
-    const shown = point.beams ? point : point.shape;
-    return {
-      values: [point.parameter, ...outputs.read(point.outputs), point.arc],
-      stable: point.stable,
-      kind: point.kind,
-      note: (point.crossing ?? point.event ?? "").replace(/_/g, " "),
-      state: shown && document.scene ? once(() => stateOf(shown, scene, point.loads ?? {})) : null,
-    };
-  };
+  const pointOf = (point: TracePoint): Point => ({
+    values: [point.parameter, ...outputs.read(point.outputs), point.arc],
+    stable: point.stable,
+    kind: point.kind,
+    note: (point.crossing ?? point.event ?? "").replace(/_/g, " "),
+    state: stateAt(study, point, point.beams ? point : point.shape),
+  });
   return {
     ...study,
     columns,
-    first: outputs.columns.length > 0 ? [1, 0] : [1, 0],
+    first: [1, 0],
     branches: branches.map((branch, i) => ({
       label: `${i + 1} ${ORIGINS[branch.origin] ?? branch.origin}`,
       points: branch.points.map(pointOf),
     })),
+  };
+}
+
+/** The curve on which a fold or branch point lies as a second parameter changes. */
+function criticalOf(study: Study): Study | null {
+  const { document, scene } = study;
+  const curve = document.critical as { parameter: string; kind: string; points: TracePoint[] } | undefined;
+  if (!curve || curve.points.length === 0) return null;
+  const outputs = new Outputs(curve.points.map((point) => point.outputs), scene.units.outputs);
+  const names = [curve.parameter, String(document.parameter)];
+  const points = curve.points.map((point): Point => ({
+    values: [number(point.second_parameter), point.parameter, ...outputs.read(point.outputs)],
+    stable: point.stable,
+    kind: "regular",
+    note: "",
+    state: stateAt(study, point, point.beams ? point : point.shape),
+  }));
+  return {
+    ...study,
+    kind: "critical",
+    columns: [...names.map((name) => ({ name, unit: scene.units.parameters[name] ?? "" })), ...outputs.columns],
+    first: [0, 1],
+    branches: [{ label: curve.kind.replace(/_/g, " "), points }],
   };
 }
 
@@ -294,14 +349,14 @@ function instant(document: Motions, scene: SceneDocument, i: number): State {
   return stateOf(state, scene);
 }
 
-interface Sample {
+interface Sample extends ShownDocument {
   parameters: Names<number>;
   status: string;
   reason?: string;
   outputs: Names<Value>;
   energy: number | null;
-  shape?: StateDocument;
-  loads?: LoadDocuments;
+  stable?: boolean | null;
+  warnings?: string[];
 }
 
 function ofSweep(study: Study): Study {
@@ -325,13 +380,10 @@ function ofSweep(study: Study): Study {
         ...outputs.read(sample.outputs),
         number(sample.energy),
       ],
-      stable: null,
+      stable: sample.stable ?? null,
       kind: isConverged ? "regular" : "failed",
-      note: isConverged ? "" : `${sample.status.replace(/_/g, " ")}${sample.reason ? `: ${sample.reason}` : ""}`,
-      state:
-        sample.shape && document.scene
-          ? once(() => stateOf(sample.shape!, scene, sample.loads ?? {}))
-          : null,
+      note: [isConverged ? "" : sample.status.replace(/_/g, " "), sample.reason ?? "", ...(sample.warnings ?? [])].filter(Boolean).join("; "),
+      state: stateAt(study, sample, sample.shape),
     };
   });
   const missing = samples.filter((sample) => sample.status !== "converged").length;

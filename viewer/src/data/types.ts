@@ -105,6 +105,14 @@ export interface StateDocument {
   tubes?: Names<BeamDocument>;
 }
 
+/** A state that stands among others of a study. */
+export interface ShownDocument {
+  shape?: StateDocument;
+  /** Where more than loads differs from the study's scene. */
+  scene?: SceneDocument;
+  loads?: LoadDocuments;
+}
+
 export type LoadDocuments = Names<{ force: Vec; moment: Vec }>;
 
 export interface MotionShape {

@@ -239,7 +239,7 @@ export class Plot {
     const placed = this.placer(u, false);
     this.study.branches.forEach((branch, b) => {
       if (this.hidden.has(b)) return;
-      const hasShapes = branch.points.some((point) => point.state);
+      const hasShapes = this.study.isJoined && branch.points.some((point) => point.state);
       branch.points.forEach((point, p) => {
         if (hasShapes && !point.state) return;
         const place = placed(point.values);

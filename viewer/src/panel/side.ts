@@ -16,12 +16,13 @@ export class Side {
     const { study } = this.app;
     const hosts: { plot?: HTMLElement; parallel?: HTMLElement } = {};
     const parts: HTMLElement[] = [];
-    const hasPath = study.branches.some((branch) => branch.points.length > 1) && study.columns.length > 1;
+    const hasMany = study.branches.length > 1 || study.branches.some((branch) => branch.points.length > 1);
+    const hasPath = hasMany && study.columns.length > 1;
     if (hasPath) {
       hosts.plot = h("div", { class: "plot", id: "plot", role: "img", "aria-label": "plot; click on it to move the mechanism to the nearest point" });
       parts.push(h("section", { class: "plots" }, this.choices(), hosts.plot, this.legend()));
     }
-    if (hasPath && !study.isJoined) {
+    if (study.kind === "sweep" && hasPath) {
       hosts.parallel = h("div", { class: "parallel", id: "parallel" });
       parts.push(hosts.parallel);
     }

@@ -8,9 +8,9 @@ import { button, choice, fileName, h, save, tick } from "./dom";
 
 const VIEWS: [string, View, string][] = [
   ["fit", "own", "fit into view (F)"],
-  ["xz", "front", "view from the front (Y)"],
-  ["xy", "top", "view from above (Z)"],
-  ["yz", "right", "view from the side (X)"],
+  ["xz", "front", "view along y (Y); again: from the other side"],
+  ["xy", "top", "view along z (Z); again: from the other side"],
+  ["yz", "right", "view along x (X); again: from the other side"],
   ["3-D", "space", "view from above the front (I)"],
 ];
 
@@ -48,7 +48,7 @@ export class Tools {
     this.bar = h(
       "div",
       { class: "bar", role: "toolbar", "aria-label": "view" },
-      h("span", { class: "group" }, ...VIEWS.map(([text, view, label]) => button(text, label, () => app.look(view), { id: `view-${text}` })), camera),
+      h("span", { class: "group" }, ...VIEWS.map(([text, view, label]) => button(text, label, () => app.lookAgain(view), { id: `view-${text}` })), camera),
       this.colours,
       h("label", { class: "choice", for: "magnification" }, h("span", {}, "displacements ×"), this.scale),
       this.proposed,

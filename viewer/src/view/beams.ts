@@ -149,8 +149,12 @@ export function sweep(
     if (i === 0 || i === stations.length - 1) {
       const corners = outline.corners.filter((_, k) => outline.sides.length === outline.corners.length || k % 2 === 0);
       const list = corners.map((corner) => add(station.p, space(corner)));
-      const tangent = rotate(station.q, [1, 0, 0]);
-      solids.polygon(i === 0 ? list.reverse() : list, i === 0 ? scale(tangent, -1) : tangent, station.colour);
+      const tangent = scale(rotate(station.q, [1, 0, 0]), i === 0 ? -1 : 1);
+      const bore = scene?.inner?.length ? dimension(scene, scene.inner, station.s) : 0;
+      if (bore > 0) {
+        const hole = ellipse(bore, bore, around).corners.map((corner) => add(station.p, space(corner)));
+        solids.collar(list, hole, tangent, station.colour);
+      } else solids.polygon(i === 0 ? list.reverse() : list, tangent, station.colour);
     }
     before = ring;
   });

@@ -36,6 +36,16 @@ export class Solids {
     for (let i = 2; i < list.length; i++) this.face(list[0]!, list[i - 1]!, list[i]!);
   }
 
+  /** A flat ring between two lines of equally many corners. */
+  collar(outer: Vec[], inner: Vec[], n: Vec, c: Rgb): void {
+    const rows = [outer, inner].map((corners) => corners.map((corner) => this.vertex(corner, n, c)));
+    const [a, b] = rows as [number[], number[]];
+    a.forEach((_, i) => {
+      const k = (i + 1) % a.length;
+      this.quad(a[i]!, a[k]!, b[k]!, b[i]!);
+    });
+  }
+
   /** A cone's stump from a to b, closed at both ends; a cylinder where the radii are equal. */
   stump(a: Vec, b: Vec, ra: number, rb: number, c: Rgb, sides = 10): void {
     const axis = sub(b, a);

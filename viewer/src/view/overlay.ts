@@ -7,6 +7,9 @@ import { norm } from "../math";
 import { digits, quantity, scaleOf } from "../units";
 import type { Label } from "./layers";
 
+/** Left, top, right and bottom of something that is written, px. */
+type Place = [number, number, number, number];
+
 /** More names than this hide what they name. */
 const MOST_LABELS = 80;
 const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
@@ -38,11 +41,9 @@ export class Overlay {
 
   draw(labels: Label[], project: (p: Vec) => Vec, axis: (v: Vec) => Vec, metresPerPixel: number): void {
     this.context.clearRect(0, 0, this.width, this.height);
-    this.labels(labels, project);
+    this.labels(labels, project, [...this.remarks(), ...this.colours()]);
     this.axes(axis);
     this.ruler(metresPerPixel);
-    this.colours();
-    this.remarks();
   }
 
   private text(x: number, y: number, text: string, colour: string, align: CanvasTextAlign, size = 12): void {
@@ -59,8 +60,8 @@ export class Overlay {
   }
 
   /** Each beside its point, where there is room. */
-  private labels(labels: Label[], project: (p: Vec) => Vec): void {
-    const taken: [number, number, number, number][] = [];
+  private labels(labels: Label[], project: (p: Vec) => Vec, written: Place[]): void {
+    const taken = [...written];
     const c = this.context;
     c.font = `12px ${FONT}`;
     for (const label of labels.slice(0, MOST_LABELS)) {
@@ -76,12 +77,7 @@ export class Overlay {
         [x + 8, y - 26],
         [x + 8, y + 26],
       ];
-      const box = ([left, middle]: [number, number]): [number, number, number, number] => [
-        left,
-        middle - 8,
-        left + width,
-        middle + 8,
-      ];
+      const box = ([left, middle]: [number, number]): Place => [left, middle - 8, left + width, middle + 8];
       const isFree = (place: [number, number]): boolean => {
         const [l, t, r, b] = box(place);
         if (l < 2 || r > this.width - 2 || t < 2 || b > this.height - 2) return false;
@@ -156,18 +152,19 @@ export class Overlay {
     this.text(x + 0.5 * width, y + 11, quantity(length, "m"), this.theme.ink, "center", 11);
   }
 
-  private colours(): void {
-    if (!this.scale) return;
+  /** The scale of colours; the place that it takes. */
+  private colours(): Place[] {
+    if (!this.scale) return [];
     const { name, unit, range } = this.scale;
     const scale = scaleOf(unit, Math.max(Math.abs(range[0]), Math.abs(range[1])));
     const height = Math.min(180, this.height - 170);
-    if (height < 60) return;
+    if (height < 60) return [];
     const [x, y] = [this.width - 92, 40];
     const c = this.context;
     const span = range[1] - range[0];
     if (!(span > 1e-9 * Math.max(Math.abs(range[0]), Math.abs(range[1])))) {
       this.text(this.width - 16, y - 16, `${name} ${quantity(range[1], unit, 3)} everywhere`, this.theme.ink, "right");
-      return;
+      return [[this.width - 260, 0, this.width, y]];
     }
     c.globalAlpha = 0.75;
     c.fillStyle = this.theme.background;
@@ -177,7 +174,8 @@ export class Overlay {
       c.fillStyle = css(valueColour(1 - i / (height - 1)));
       c.fillRect(x, y + i, 14, 1.5);
     }
-    const floor = 1e-6 * Math.max(Math.abs(range[0]), Math.abs(range[1]));
+    // As exact as the largest value is written, so that round-off and what is nothing beside it read as zero.
+    const exact = 10 ** (Math.floor(Math.log10(Math.max(Math.abs(range[0]), Math.abs(range[1])) * scale.factor)) - 2);
     const title = scale.unit ? `${name} / ${scale.unit}` : name;
     this.text(this.width - 16, y - 16, title, this.theme.ink, "right");
     for (let i = 0; i <= 4; i++) {
@@ -189,11 +187,13 @@ export class Overlay {
       c.moveTo(x + 14, at);
       c.lineTo(x + 18, at);
       c.stroke();
-      this.text(x + 22, at, digits(Math.abs(value) < floor ? 0 : value * scale.factor, 3), this.theme.ink, "left", 11);
+      this.text(x + 22, at, digits(exact * Math.round((value * scale.factor) / exact), 3), this.theme.ink, "left", 11);
     }
+    return [[x - 40, 0, this.width, y + height + 10]];
   }
 
-  private remarks(): void {
+  /** What has to be said; the place that it takes. */
+  private remarks(): Place[] {
     const times = `displacements × ${digits(this.magnification, 4)}`;
     const isTrue = this.magnification === 1;
     const lines: [string, string, number][] = [];
@@ -201,6 +201,7 @@ export class Overlay {
     if (this.caption) lines.push([this.caption, this.theme.ink, 13]);
     lines.push([isTrue ? `${times} (to scale)` : times, isTrue ? this.theme.faint : this.theme.alarm, 12]);
     lines.forEach(([text, colour, size], i) => this.text(14, 18 + 19 * i, text, colour, "left", size));
+    return [[0, 0, 300, 19 * lines.length + 4]];
   }
 }
 

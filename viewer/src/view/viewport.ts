@@ -45,6 +45,8 @@ const EYES: Record<Exclude<View, "own">, Vec> = {
   space: [0.55, -1, 0.6],
 };
 const ANGLE = 30;
+/** Room for the scale of colours and for remarks, px. */
+const MARGIN = { right: 100, top: 44 };
 
 export class Viewport {
   readonly overlay: Overlay;
@@ -64,6 +66,8 @@ export class Viewport {
   private isQueued = false;
   private size = 1;
   private box: Box | null = null;
+  /** From where the eye was last asked to look. */
+  view: View = "own";
   private layers: Layers | null = null;
 
   constructor(
@@ -160,6 +164,7 @@ export class Viewport {
   /** Looks at a box from one side, all of it in sight. */
   fit(box: Box, view: View): void {
     this.box = box;
+    this.view = view;
     const size = Math.max(box.size, 1e-9);
     this.size = size;
     const eye = unit(view === "own" ? ownEye(box) : EYES[view]);
@@ -167,9 +172,7 @@ export class Viewport {
     // Straight from above there would be no upwards.
     const tilt = Math.abs(eye[2]) > 0.9999 ? new Vector3(0, -1e-4, 0) : new Vector3();
     const direction = new Vector3(...eye).add(tilt).normalize();
-    const { width, height } = this.canvas.getBoundingClientRect();
-    const aspect = width > 0 && height > 0 ? width / height : 1;
-    const half = this.halfExtent(box, direction, aspect);
+    const half = this.halfExtent(box, direction);
     const distance = half / Math.tan((ANGLE * Math.PI) / 360);
     this.camera.position.copy(target).addScaledVector(direction, distance);
     this.orthographic.zoom = this.size / (2 * half);
@@ -182,8 +185,12 @@ export class Viewport {
     this.redraw();
   }
 
-  /** Half the height that a picture must have to hold the box, with a margin for marks and labels. */
-  private halfExtent(box: Box, direction: Vector3, aspect: number): number {
+  /** Half the height that a picture must have to hold the box beside what is written, with a margin for marks and labels. */
+  private halfExtent(box: Box, direction: Vector3): number {
+    const { width, height } = this.canvas.getBoundingClientRect();
+    const room = (whole: number, margin: number): number => (whole > 2 * margin ? (whole - margin) / whole : 1);
+    const [across, upright] = [room(width, MARGIN.right), room(height, MARGIN.top)];
+    const aspect = width > 0 && height > 0 ? width / height : 1;
     const up = new Vector3(0, 0, 1);
     const right = new Vector3().crossVectors(up, direction);
     if (right.length() < 1e-6) right.set(1, 0, 0);
@@ -198,9 +205,9 @@ export class Viewport {
         (i & 4 ? box.high : box.low)[2],
       ).sub(middle);
       const depth = this.isPerspective ? corner.dot(direction) * Math.tan((ANGLE * Math.PI) / 360) : 0;
-      half = Math.max(half, Math.abs(corner.dot(above)) + depth, Math.abs(corner.dot(right)) / aspect + depth);
+      half = Math.max(half, (Math.abs(corner.dot(above)) + depth) / upright, (Math.abs(corner.dot(right)) / aspect + depth) / across);
     }
-    return 1.25 * half;
+    return 1.2 * half;
   }
 
   /** Turns the eye, rad; moves it nearer by a factor. */
@@ -285,6 +292,9 @@ export class Viewport {
     [this.orthographic.left, this.orthographic.right] = [-across, across];
     [this.orthographic.top, this.orthographic.bottom] = [half, -half];
     this.orthographic.updateProjectionMatrix();
+    // The middle of what is seen is the middle of the room beside the scale of colours and below the remarks.
+    const shift = [width > 2 * MARGIN.right ? 0.5 * MARGIN.right : 0, height > 2 * MARGIN.top ? -0.5 * MARGIN.top : 0] as const;
+    for (const camera of [this.perspective, this.orthographic]) camera.setViewOffset(width, height, ...shift, width, height);
     this.draw();
   }
 
@@ -309,8 +319,8 @@ export class Viewport {
 function ownEye(box: Box): Vec {
   const [x, y, z] = box.extent;
   const flat = 0.04 * box.size;
-  if (y <= flat) return [0.28, -1, 0.3];
-  if (z <= flat) return [0.12, -0.42, 1];
+  if (y <= flat) return [0.16, -1, 0.24];
+  if (z <= flat) return [0, -0.35, 1];
   if (x <= flat) return [1, -0.3, 0.3];
   return EYES.space;
 }
