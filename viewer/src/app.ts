@@ -353,7 +353,7 @@ export class App {
     overlay.alarm = this.alarm();
     overlay.caption = this.caption();
     overlay.gravity = state.scene.gravity;
-    this.said.textContent = [overlay.alarm, overlay.caption].filter(Boolean).join("; ");
+    this.said.textContent = [overlay.alarm, overlay.caption, overlay.magnified].filter(Boolean).join("; ");
     this.viewport.show(layers);
   }
 

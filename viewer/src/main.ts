@@ -21,6 +21,8 @@ interface Handle {
   picture(type?: string, quality?: number): string;
   readonly spot: Spot;
   readonly counts: { triangles: number; calls: number };
+  /** What is written beside things: names and values. */
+  readonly labels: string[];
   /** A beam's axis as it is seen, m. */
   line(name: string): Vec[];
   app: App;
@@ -49,6 +51,9 @@ async function open(): Promise<void> {
       },
       get counts() {
         return app.viewport.counts;
+      },
+      get labels() {
+        return app.viewport.labels;
       },
       line: (name) => app.seen().lines.get(name)?.p ?? [],
       app,

@@ -5,6 +5,7 @@ import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { browser, opened } from "./chrome.mjs";
+import { difference, urlOf } from "./compare.mjs";
 import { made, model, settled } from "./support.mjs";
 
 let chrome;
@@ -15,8 +16,7 @@ before(async () => {
 });
 after(() => chrome.close());
 
-/** A channel that differs by so much is another colour; so small a part of the pixels may be of another colour. */
-const COLOUR = 40;
+/** So small a part of the pixels may be of another colour. */
 const PART = 0.01;
 
 const KEPT = [
@@ -25,34 +25,6 @@ const KEPT = [
   ["ellipsoid_in_dish", ["solve", model("ellipsoid_in_dish")]],
   ["tendon_robot", ["solve", model("tendon_robot")]],
 ];
-
-/** The part of the pixels that differ; the page decodes both. */
-const difference = (page, a, b) =>
-  page.evaluate(
-    async ([a, b, colour]) => {
-      const data = await Promise.all(
-        [a, b].map(async (url) => {
-          const image = new Image();
-          image.src = url;
-          await image.decode();
-          const sheet = new OffscreenCanvas(image.width, image.height);
-          const sketch = sheet.getContext("2d");
-          sketch.drawImage(image, 0, 0);
-          return sketch.getImageData(0, 0, image.width, image.height);
-        }),
-      );
-      if (data[0].width !== data[1].width || data[0].height !== data[1].height) return 1;
-      let count = 0;
-      for (let i = 0; i < data[0].data.length; i += 4) {
-        const far = [0, 1, 2].some((k) => Math.abs(data[0].data[i + k] - data[1].data[i + k]) > colour);
-        if (far) count++;
-      }
-      return (4 * count) / data[0].data.length;
-    },
-    [a, b, COLOUR],
-  );
-
-const urlOf = (bytes) => `data:image/png;base64,${bytes.toString("base64")}`;
 
 for (const [name, words] of KEPT) {
   test(`the picture of ${name} is the one that was kept`, async () => {

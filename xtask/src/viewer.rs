@@ -56,14 +56,35 @@ pub fn test() -> Outcome {
     chromium()?;
     node("tests of the page in a browser", "--test --test-concurrency=1")
         .argument(viewer().join("test/page.test.mjs"))
+        .argument(viewer().join("test/drawing.test.mjs"))
+        .argument(viewer().join("test/studies.test.mjs"))
         .argument(viewer().join("test/safety.test.mjs"))
         .argument(viewer().join("test/pictures.test.mjs"))
         .variable("FLEXURA", program().display().to_string())
-        .run()
+        .run()?;
+    checked("pictures of the page are up to date", "pictures", check_pictures)
 }
 
 /// Pictures of the page for the README, and the gallery: every example with its picture. The command must be built.
 pub fn pictures() -> Outcome {
+    let gallery = photograph("")?;
+    write(&gallery_page(), &gallery)
+}
+
+/// The pictures must be those that would be made, but for how letters and edges are drawn.
+fn check_pictures() -> Outcome {
+    if photograph("--check")? == read(&gallery_page())? {
+        return Ok(());
+    }
+    Err("docs/gallery.md is out of date; mend it with\n\n    cargo xtask pictures\n".to_owned())
+}
+
+fn gallery_page() -> PathBuf {
+    root().join("docs/gallery.md")
+}
+
+/// Photographs everything that there is a picture of; the text of the gallery.
+fn photograph(flags: &str) -> Result<String, String> {
     prepare()?;
     chromium()?;
     let images = root().join("docs/images");
@@ -75,7 +96,7 @@ pub fn pictures() -> Outcome {
     let mut gallery = String::from(HEAD);
     for model in models()? {
         let (name, text) = (stem(&model), read(&model)?);
-        let Ok(page) = page_of(&name, &[study(&text), &model.display().to_string()]) else { continue };
+        let page = page_of(&name, &[study(&text), &model.display().to_string()])?;
         jobs.push((page, images.join(format!("gallery/{name}.webp")), "gallery".to_owned()));
         gallery += &format!(
             "## {}\n\n![{name}](images/gallery/{name}.webp)\n\n`flexura {} {name}.toml`\n\n",
@@ -88,8 +109,13 @@ pub fn pictures() -> Outcome {
         .iter()
         .map(|(page, picture, part)| format!("{}\t{}\t{part}\n", page.display(), picture.display()));
     write(&list, &lines.collect::<String>())?;
-    node("pictures of the page", "").argument(viewer().join("test/photograph.mjs")).argument(&list).run()?;
-    write(&root().join("docs/gallery.md"), &format!("{}\n", gallery.trim_end()))
+    let mut step =
+        node("pictures of the page", "").argument(viewer().join("test/photograph.mjs")).argument(&list);
+    for flag in flags.split_whitespace() {
+        step = step.argument(flag);
+    }
+    step.run()?;
+    Ok(format!("{}\n", gallery.trim_end()))
 }
 
 const HEAD: &str = "# Gallery\n\nEvery example that `flexura examples` lists, as the page of its result shows it (`--report FILE`): beams coloured by their \

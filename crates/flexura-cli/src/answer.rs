@@ -1,10 +1,11 @@
 //! What a study has to say, and how it gets to the screen and onto the disk.
 
-use crate::arguments::ModelArguments;
+use crate::arguments::{ModelArguments, ShownArguments};
 use crate::commands::{file_failure, warn_about, warn_of_outputs};
 use crate::failure::Failure;
 use crate::files::{self, Growing};
 use crate::interrupt;
+use crate::shown::Shown;
 use crate::{page, screen};
 use flexura::Options;
 use flexura::model::{Model, visible};
@@ -23,8 +24,8 @@ pub struct Task<'a> {
     pub overrides: &'a [(String, String)],
     pub options: Options,
     pub folder: Option<PathBuf>,
-    /// Where the page alone is wanted.
-    pub page: Option<PathBuf>,
+    /// What is wanted by its name.
+    pub shown: Shown,
     pub is_json: bool,
     pub is_quiet: bool,
 }
@@ -34,7 +35,7 @@ impl<'a> Task<'a> {
     pub fn new(
         arguments: &'a ModelArguments,
         file: Document,
-        (folder, page): (Option<&Path>, Option<&Path>),
+        (folder, shown): (Option<&Path>, &ShownArguments),
         tolerance: Option<f64>,
     ) -> Result<Self, Failure> {
         let overrides = &arguments.overrides;
@@ -49,19 +50,21 @@ impl<'a> Task<'a> {
         }
         let folder = folder.map(Path::to_path_buf);
         let (is_json, is_quiet) = (arguments.json, arguments.quiet);
-        if let Some(path) = page {
-            page::begin(path)?;
-        }
-        let page = page.map(Path::to_path_buf);
-        if is_json || folder.is_some() || page.is_some() {
+        let shown = Shown::new(shown)?;
+        if is_json || folder.is_some() || shown.wants_page() {
             options.shapes = SHAPE;
         }
-        Ok(Self { file, model, overrides, options, folder, page, is_json, is_quiet })
+        Ok(Self { file, model, overrides, options, folder, shown, is_json, is_quiet })
     }
 
     /// Will anybody read the result document?
     pub fn wants_document(&self) -> bool {
-        self.is_json || self.folder.is_some() || self.page.is_some()
+        self.is_json || self.folder.is_some() || self.shown.is_wanted()
+    }
+
+    /// Are the files beside the document made, of which pictures are some?
+    pub fn wants_files(&self) -> bool {
+        self.folder.is_some() || self.shown.wants_picture()
     }
 
     /// The scene of a document tells the model file too.
@@ -81,11 +84,12 @@ impl<'a> Task<'a> {
             Ok(written) => (written, None),
             Err(failure) => (None, Some(failure)),
         };
-        let page = match (&self.page, &answer.document) {
-            (Some(path), Some(document)) => page::write(path, document).err(),
-            _ => None,
+        let text = match (&written, &answer.document) {
+            (None, Some(document)) if self.shown.wants_page() => Some(json(document)?),
+            _ => written.clone(),
         };
-        let unwritten = unwritten.or(page);
+        let shown = self.shown.write(text.as_deref(), &answer.pictures()).err();
+        let unwritten = unwritten.or(shown);
         if let Some(document) = answer.document.as_ref().filter(|_| self.is_json) {
             screen::print_table(&written.map_or_else(|| json(document), Ok)?)?;
         } else if !self.is_quiet {
@@ -100,7 +104,7 @@ impl<'a> Task<'a> {
         }
         if !self.is_quiet {
             self.tell_files(&answer, self.folder.as_deref());
-            self.tell_page();
+            self.shown.tell();
         }
         match answer.failure {
             // It may have been ended in what comes after the equilibrium.
@@ -122,13 +126,6 @@ impl<'a> Task<'a> {
         Ok(Some(text))
     }
 
-    /// Says that the page was written.
-    pub fn tell_page(&self) {
-        if let Some(path) = &self.page {
-            screen::note(&format!("wrote {}", visible(&path.to_string_lossy())));
-        }
-    }
-
     /// Says which files were written.
     pub fn tell_files(&self, answer: &Answer, folder: Option<&Path>) {
         let (Some(folder), Some((last, names))) = (folder, answer.files.split_last()) else { return };
@@ -146,7 +143,7 @@ const SHAPE: usize = 17;
 pub struct Answer {
     /// The result document, where somebody wants it.
     pub document: Option<StudyDocument>,
-    /// Further files by name, where a folder is given.
+    /// Further files by name, where a folder is given or a picture is wanted.
     pub files: Vec<(&'static str, String)>,
     /// What a person reads.
     pub summary: String,
@@ -157,6 +154,14 @@ pub struct Answer {
     pub failure: Option<Failure>,
     /// The rows that were written on the way.
     pub growing: Option<Growing>,
+}
+
+impl Answer {
+    /// Its pictures, as they are written into a folder.
+    pub fn pictures(&self) -> Vec<String> {
+        let drawn = self.files.iter().filter(|(name, _)| name.ends_with(".svg"));
+        drawn.map(|(_, picture)| picture.clone()).collect()
+    }
 }
 
 /// The result document of any study.

@@ -57,6 +57,19 @@ pub struct ModelArguments {
 }
 
 #[derive(Args)]
+pub struct ShownArguments {
+    /// Write one HTML page that shows the result, with all that it needs
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// Write a still picture of the result
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Write the same picture as pixels
+    #[arg(long, value_name = "FILE")]
+    pub png: Option<PathBuf>,
+}
+
+#[derive(Args)]
 pub struct SolveArguments {
     #[command(flatten)]
     pub model: ModelArguments,
@@ -82,9 +95,8 @@ pub struct SolveArguments {
     /// Seed of the random states; the same seed finds the same equilibria [default: 0]
     #[arg(long, value_name = "S", requires = "guesses")]
     pub seed: Option<u64>,
-    /// Write one HTML page that shows the result, with all that it needs
-    #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
 }
 
 #[derive(Args)]
@@ -134,9 +146,8 @@ pub struct TraceArguments {
     /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// Write one HTML page that shows the result, with all that it needs
-    #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
 }
 
 #[derive(Args)]
@@ -159,9 +170,8 @@ pub struct BuckleArguments {
     /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// Write one HTML page that shows the result, with all that it needs
-    #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
 }
 
 #[derive(Args)]
@@ -176,9 +186,8 @@ pub struct RunArguments {
     /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// Write one HTML page that shows the result, with all that it needs
-    #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
 }
 
 #[derive(Args)]
@@ -198,9 +207,8 @@ pub struct SweepArguments {
     /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
-    /// Write one HTML page that shows the result, with all that it needs
-    #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
 }
 
 #[derive(Args)]

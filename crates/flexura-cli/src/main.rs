@@ -16,6 +16,7 @@ mod page;
 mod progress;
 mod quantity;
 mod screen;
+mod shown;
 mod summary;
 mod table;
 mod trace_summary;

@@ -1,11 +1,8 @@
 //! The page that shows a result: into a folder, a file, or the browser.
 
-use crate::answer::json;
 use crate::failure::Failure;
-use crate::files;
 use flexura::model::visible;
 use flexura::report;
-use serde::Serialize;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -15,11 +12,6 @@ pub const NAME: &str = "report.html";
 /// The page of a result document.
 pub fn of_text(text: &str) -> Result<String, Failure> {
     report::page(text).map_err(|error| Failure::Machine(error.to_string()))
-}
-
-/// Writes the page of a result document.
-pub fn write(path: &Path, document: &impl Serialize) -> Result<(), Failure> {
-    files::replace(path, &of_text(&json(document)?)?)
 }
 
 /// Hours of work should not end at a folder that is not there.

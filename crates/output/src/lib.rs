@@ -34,7 +34,9 @@ pub use scene::{
     HoldScene, JointScene, LoadDocument, LoadScene, MassScene, PlaceDocument, SceneDocument, SpringScene,
     TubeScene, TubesScene, UnitsDocument, WrapScene, loads, scene, scene_beside,
 };
-pub use svg::{diagram_svg, modes_svg, motion_svg, shape_svg, shapes_svg};
+pub use svg::{
+    SampleColumn, SweepView, diagram_svg, modes_svg, motion_svg, shape_svg, shapes_svg, stacked, sweep_svg,
+};
 pub use thin::shape_of;
 pub use trace::{
     BranchDocument, BucklingDocument, CriticalDocument, ModeDocument, MotionDocument, MotionsDocument,

@@ -7,11 +7,7 @@ use tiny_skia::{
 };
 
 /// Draws what stands in an element.
-pub fn children(
-    pixels: &mut Pixmap,
-    parent: &Node<'_, '_>,
-    transform: Transform,
-) -> Result<(), RasterError> {
+pub fn children(pixels: &mut Pixmap, parent: &Node<'_, '_>, transform: Transform) -> Result<(), RasterError> {
     let elements = parent.children().filter(Node::is_element);
     elements.map(|node| element(pixels, &node, transform)).collect()
 }

@@ -76,7 +76,10 @@ fn text_stands_at_its_anchor_and_runs_upwards_where_it_should() {
     assert!(start[3].abs_diff(80) <= 1 && start[2] < 70, "{start:?}");
     let [left, right, top, bottom] =
         text("transform=\"translate(20 15) rotate(-90)\" text-anchor=\"middle\" font-size=\"8\"");
-    assert!(bottom - top > right - left && (top + bottom).abs_diff(120) <= 6, "{left} {right} {top} {bottom}");
+    assert!(
+        bottom - top > right - left && (top + bottom).abs_diff(120) <= 6,
+        "{left} {right} {top} {bottom}"
+    );
 }
 
 #[test]

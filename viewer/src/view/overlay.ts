@@ -192,14 +192,19 @@ export class Overlay {
     return [[x - 40, 0, this.width, y + height + 10]];
   }
 
+  /** How large displacements are drawn. */
+  get magnified(): string {
+    const times = `displacements × ${digits(this.magnification, 4)}`;
+    return this.magnification === 1 ? `${times} (to scale)` : times;
+  }
+
   /** What has to be said; the place that it takes. */
   private remarks(): Place[] {
-    const times = `displacements × ${digits(this.magnification, 4)}`;
     const isTrue = this.magnification === 1;
     const lines: [string, string, number][] = [];
     if (this.alarm) lines.push([this.alarm, this.theme.alarm, 14]);
     if (this.caption) lines.push([this.caption, this.theme.ink, 13]);
-    lines.push([isTrue ? `${times} (to scale)` : times, isTrue ? this.theme.faint : this.theme.alarm, 12]);
+    lines.push([this.magnified, isTrue ? this.theme.faint : this.theme.alarm, 12]);
     lines.forEach(([text, colour, size], i) => this.text(14, 18 + 19 * i, text, colour, "left", size));
     return [[0, 0, 300, 19 * lines.length + 4]];
   }

@@ -248,6 +248,11 @@ export class Viewport {
     return { triangles: this.renderer.info.render.triangles, calls: this.renderer.info.render.calls };
   }
 
+  /** What is written beside things. */
+  get labels(): string[] {
+    return (this.layers?.labels ?? []).map(({ text }) => text);
+  }
+
   redraw(): void {
     if (this.isQueued) return;
     this.isQueued = true;

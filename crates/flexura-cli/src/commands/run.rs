@@ -5,7 +5,6 @@ use crate::answer::{Answer, StudyDocument, Task, json};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::screen::{self, BOLD, styled};
-use crate::{files, page};
 use flexura::model::{Study, StudyKind};
 use flexura::modelfile::Document;
 use flexura::output::Named;
@@ -15,13 +14,14 @@ use std::path::Path;
 
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
-    let places = (arguments.output.as_deref(), arguments.report.as_deref());
+    let places = (arguments.output.as_deref(), &arguments.shown);
     let task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
     let studies = chosen(&task, arguments.study.as_deref())?;
     if !task.is_quiet {
         warn_about(&task.file, &[]);
     }
     let mut documents = Vec::new();
+    let mut pictures = Vec::new();
     let mut failed = Vec::new();
     for study in &studies {
         if task.options.interrupt.is_raised() {
@@ -44,12 +44,14 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
                 task.tell_files(&answer, folder.as_deref());
             }
         }
+        pictures.extend(answer.pictures());
         let failure = written.err().or(answer.failure);
         failed.extend(failure.map(|failure| (study.name.as_str(), failure)));
         documents.extend(answer.document.map(|document| (study.name.clone(), document)));
     }
-    if task.is_json || task.page.is_some() {
-        let text = match (&arguments.study, documents.pop()) {
+    let mut text = None;
+    if task.is_json || task.shown.wants_page() {
+        text = Some(match (&arguments.study, documents.pop()) {
             (Some(_), Some((_, only))) => json(&only)?,
             (_, last) => {
                 documents.extend(last);
@@ -65,16 +67,14 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
                     studies: Named(documents),
                 })?
             }
-        };
-        if let Some(path) = &task.page {
-            files::replace(path, &page::of_text(&text)?)?;
-        }
-        if task.is_json {
-            screen::print_table(&text)?;
-        }
+        });
+    }
+    task.shown.write(text.as_deref(), &pictures)?;
+    if let (Some(text), true) = (&text, task.is_json) {
+        screen::print_table(text)?;
     }
     if !task.is_quiet {
-        task.tell_page();
+        task.shown.tell();
     }
     end(failed, studies.len())
 }

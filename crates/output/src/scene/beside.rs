@@ -1,8 +1,8 @@
 //! Scenes of other states of a study, where a parameter changes the mechanism and not only its loads.
 
 use super::{BeamScene, PlaceDocument, SceneDocument, scene};
-use crate::thin::round;
 use crate::OutputError;
+use crate::thin::round;
 use flexura_model::Model;
 use flexura_solution::Solution;
 

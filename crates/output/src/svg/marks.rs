@@ -3,7 +3,7 @@
 use super::axis::shown;
 use super::canvas::{Canvas, Style};
 use super::layout::Panel;
-use super::scene::{BodyMark, CableMark, JointMark, LoadMark, SpringMark, Support};
+use super::scene::{BodyMark, CableMark, JointMark, LoadMark, MassMark, Scene, SpringMark, Support};
 use super::{CABLE, FAINT, INK, LOAD, SPRING, shortened};
 use flexura_model::JointKind;
 use flexura_spatial::Vector3;
@@ -219,6 +219,25 @@ pub fn spring(canvas: &mut Canvas, panel: &Panel, spring: &SpringMark) {
         }
     }
     name_course(canvas, panel, &spring.course, &spring.name, SPRING);
+}
+
+/// A mass, with its name and size.
+pub fn mass(canvas: &mut Canvas, panel: &Panel, mass: &MassMark) {
+    let [x, y] = panel.point(&mass.point);
+    canvas.circle([x, y], 3.4, INK, &Style::line("#ffffff", 0.8));
+    let name = shortened(&mass.name, super::BODY_NAME);
+    let text = format!("{name} {}", shown(mass.mass, "kg", 3));
+    canvas.text([x + 7.0, y + 12.0], text.trim_start(), "start", 10.5, INK);
+}
+
+/// Names of the springs and cables of a scene that are drawn as lines.
+pub fn names_of_strings(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
+    for spring in &scene.springs {
+        name_course(canvas, panel, &spring.course, &spring.name, SPRING);
+    }
+    for cable in &scene.cables {
+        name_course(canvas, panel, &cable.course, &cable.name, CABLE);
+    }
 }
 
 /// The name of something long and thin, beside its middle; none where it is seen from its end.

@@ -14,17 +14,22 @@ mod axis;
 mod canvas;
 mod curve;
 mod diagram;
+mod gradient;
 mod history;
 mod layout;
 mod marks;
 mod outlines;
+mod samples;
 mod scene;
 mod series;
 mod shapes;
+mod stack;
 
 pub use diagram::diagram_svg;
 pub use history::motion_svg;
+pub use samples::{SampleColumn, SweepView, sweep_svg};
 pub use shapes::{modes_svg, shapes_svg};
+pub use stack::stacked;
 
 use canvas::{Canvas, Style};
 use flexura_model::Model;
@@ -171,6 +176,9 @@ fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
     for joint in &scene.joints {
         marks::joint(canvas, panel, joint);
     }
+    for mass in &scene.masses {
+        marks::mass(canvas, panel, mass);
+    }
     for load in &scene.loads {
         marks::load(canvas, panel, load);
     }
@@ -203,6 +211,8 @@ enum Entry {
     Contact { is_grounded: bool },
     Support,
     Load,
+    Mass,
+    Gravity(String),
 }
 
 fn legend_entries(scene: &Scene) -> Vec<Entry> {
@@ -236,6 +246,13 @@ fn legend_entries(scene: &Scene) -> Vec<Entry> {
     }
     if !scene.loads.is_empty() {
         entries.push(Entry::Load);
+    }
+    if !scene.masses.is_empty() {
+        entries.push(Entry::Mass);
+    }
+    if scene.gravity != Vector3::zeros() {
+        let parts = scene.gravity.map(|part| axis::number(part, 3));
+        entries.push(Entry::Gravity(format!("gravity ({}, {}, {}) m/s²", parts.x, parts.y, parts.z)));
     }
     entries
 }
@@ -286,8 +303,14 @@ fn draw_legend(canvas: &mut Canvas, origin: [f64; 2], entries: &[Entry]) {
                 marks::arrow(canvas, left, right, LOAD);
                 "load".to_owned()
             }
+            Entry::Mass => {
+                canvas.circle(middle, 3.4, INK, &Style::line("#ffffff", 0.8));
+                "mass".to_owned()
+            }
+            Entry::Gravity(text) => text.clone(),
         };
-        canvas.text([x + 34.0, y + 4.0], &label, "start", 11.5, INK);
+        let indent = if matches!(entry, Entry::Gravity(_)) { 0.0 } else { 34.0 };
+        canvas.text([x + indent, y + 4.0], &label, "start", 11.5, INK);
     }
 }
 

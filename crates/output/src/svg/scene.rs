@@ -92,6 +92,14 @@ pub struct CableMark {
     pub guides: Vec<Vector3<f64>>,
 }
 
+/// A mass on a beam, or a body's centre of mass; kg.
+pub struct MassMark {
+    /// Empty for a body, whose name stands at its origin.
+    pub name: String,
+    pub point: Vector3<f64>,
+    pub mass: f64,
+}
+
 /// All of it.
 pub struct Scene {
     pub beams: Vec<BeamLine>,
@@ -104,6 +112,9 @@ pub struct Scene {
     pub springs: Vec<SpringMark>,
     pub cables: Vec<CableMark>,
     pub loads: Vec<LoadMark>,
+    pub masses: Vec<MassMark>,
+    /// Global, m/s².
+    pub gravity: Vector3<f64>,
 }
 
 impl Scene {
@@ -155,6 +166,8 @@ impl Scene {
             springs: springs(model, solution),
             cables: cables(model, solution),
             loads: loads(model, solution),
+            masses: masses(model, solution),
+            gravity: model.gravity,
         };
         // What has no end is cut to the size of the others.
         let [low, high] = scene.bounds();
@@ -329,6 +342,20 @@ fn cables(model: &Model, solution: &Solution) -> Vec<CableMark> {
             guides: cable.route.iter().filter_map(place).collect(),
         })
         .collect()
+}
+
+fn masses(model: &Model, solution: &Solution) -> Vec<MassMark> {
+    let on_beams = model.masses.iter().filter_map(|mass| {
+        let point = sample_at(solution, mass.point)?.pose.position;
+        Some(MassMark { name: mass.name.clone(), point, mass: mass.mass })
+    });
+    let bodies = model.bodies.iter().zip(&solution.bodies).filter(|(body, _)| body.mass > 0.0);
+    let bodies = bodies.map(|(body, pose)| MassMark {
+        name: String::new(),
+        point: pose.point(&body.center_of_mass),
+        mass: body.mass,
+    });
+    on_beams.chain(bodies).collect()
 }
 
 fn springs(model: &Model, solution: &Solution) -> Vec<SpringMark> {

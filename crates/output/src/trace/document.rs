@@ -29,9 +29,9 @@ pub fn trace_document(view: &TraceView<'_>) -> Result<TraceDocument, OutputError
     let first = First::of(view)?;
     let first = first.as_ref();
     let branches = trace.branches.iter().enumerate();
-    let branches = branches.map(|(i, branch)| branch_document(view, first, i, branch)).collect::<Result<_, _>>()?;
-    let critical =
-        trace.critical.as_ref().map(|curve| critical_document(view, first, curve)).transpose()?;
+    let branches =
+        branches.map(|(i, branch)| branch_document(view, first, i, branch)).collect::<Result<_, _>>()?;
+    let critical = trace.critical.as_ref().map(|curve| critical_document(view, first, curve)).transpose()?;
     let counted = trace.work;
     Ok(TraceDocument {
         flexura: env!("CARGO_PKG_VERSION").to_owned(),
