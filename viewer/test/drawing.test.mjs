@@ -142,7 +142,7 @@ test("gravity is shown with its size, and points down", async () => {
 });
 
 test("a beam is as wide and as high on the screen as its section, where it tapers too", async () => {
-  const toml = BENT.replace('width = "20 mm"', 'width = [[0, "20 mm"], [1, "60 mm"]]').replace('height = "0.5 mm"', 'height = "8 mm"');
+  const toml = BENT.replace('width = "20 mm"', 'width = "20 mm + 0.2*s"').replace('height = "0.5 mm"', 'height = "8 mm"');
   const { page } = await opened(context, madeOf("taper", toml).page);
   await page.evaluate(() => ["loads", "names", "ghost"].forEach((name) => window.flexura.app.set(name, false)));
   await page.selectOption("#camera", { label: "parallel" });

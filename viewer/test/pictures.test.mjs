@@ -24,6 +24,8 @@ const KEPT = [
   ["four_bar", ["solve", model("four_bar")]],
   ["ellipsoid_in_dish", ["solve", model("ellipsoid_in_dish")]],
   ["tendon_robot", ["solve", model("tendon_robot")]],
+  ["condyle_tendon", ["solve", model("condyle_tendon")]],
+  ["column_on_foundation", ["solve", model("column_on_foundation")]],
 ];
 
 for (const [name, words] of KEPT) {

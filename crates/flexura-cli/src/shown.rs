@@ -24,7 +24,7 @@ impl Shown {
     pub fn new(arguments: &ShownArguments) -> Result<Self, Failure> {
         let shown =
             Self { page: arguments.report.clone(), svg: arguments.svg.clone(), png: arguments.png.clone() };
-        shown.paths().try_for_each(|path| page::begin(path))?;
+        shown.paths().try_for_each(page::begin)?;
         Ok(shown)
     }
 

@@ -401,7 +401,7 @@ impl<'a> Sweep<'a> {
         sample.energy = Some(solution.energy);
         sample.unstable_directions = solution.unstable_directions;
         sample.error_estimate = Some(solution.error_estimate);
-        if self.shapes.is_some_and(|every| position % every == 0) {
+        if self.shapes.is_some_and(|every| position.is_multiple_of(every)) {
             sample.shape = Some(Box::new((model, solution)));
         }
         sample

@@ -35,11 +35,11 @@ fn rounded(mut state: StateDocument) -> StateDocument {
 
 fn of_beam(beam: &mut BeamDocument) {
     let vectors = [&mut beam.position, &mut beam.force, &mut beam.moment, &mut beam.curvature];
-    vectors.into_iter().for_each(of_list);
+    vectors.into_iter().for_each(|list| of_list(list));
     beam.rotation.iter_mut().flatten().for_each(round);
     beam.s.iter_mut().chain(&mut beam.stretch).for_each(round);
     beam.stress.iter_mut().chain(&mut beam.strain).flatten().for_each(round);
-    beam.foundation.iter_mut().for_each(of_list);
+    beam.foundation.iter_mut().for_each(|list| of_list(list));
     beam.foundation_force.iter_mut().flatten().for_each(round);
 }
 
@@ -61,13 +61,13 @@ fn of_cable(cable: &mut CableDocument) {
 
 fn of_tubes(tubes: &mut TubesDocument) {
     let vectors = [&mut tubes.position, &mut tubes.force, &mut tubes.moment, &mut tubes.curvature];
-    vectors.into_iter().for_each(of_list);
+    vectors.into_iter().for_each(|list| of_list(list));
     tubes.rotation.iter_mut().flatten().for_each(round);
     tubes.s.iter_mut().for_each(round);
     tubes.angles.iter_mut().chain(&mut tubes.torques).flatten().for_each(round);
 }
 
-fn of_list(list: &mut Vec<[f64; 3]>) {
+fn of_list(list: &mut [[f64; 3]]) {
     list.iter_mut().flatten().for_each(round);
 }
 

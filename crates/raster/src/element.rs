@@ -8,8 +8,8 @@ use tiny_skia::{
 
 /// Draws what stands in an element.
 pub fn children(pixels: &mut Pixmap, parent: &Node<'_, '_>, transform: Transform) -> Result<(), RasterError> {
-    let elements = parent.children().filter(Node::is_element);
-    elements.map(|node| element(pixels, &node, transform)).collect()
+    let mut elements = parent.children().filter(Node::is_element);
+    elements.try_for_each(|node| element(pixels, &node, transform))
 }
 
 fn element(pixels: &mut Pixmap, node: &Node<'_, '_>, transform: Transform) -> Result<(), RasterError> {

@@ -59,15 +59,10 @@ pub(crate) struct Follower<'s> {
     pub missed: std::cell::Cell<usize>,
     /// What there is to know of the states on the path, with the parameter where each was first said.
     pub remarks: std::cell::RefCell<Vec<(f64, String)>>,
-    /// Sections of all shapes so far, and points since the last one.
-    pub shaped: std::cell::Cell<(usize, usize)>,
 }
 
 /// Regular points between two whose whole state is kept.
 const KEPT: usize = 8;
-/// A shape at every point up to so many sections, at every second beyond, at every third beyond twice as many, and so on: a
-/// document of a long path stays of a size that can be read.
-const SECTIONS: usize = 10_000;
 /// A parameter that lies outside its range by so little is at its end.
 const EDGE: f64 = 1e-9;
 /// The same where nothing can be had at the end itself.
@@ -135,7 +130,7 @@ impl Follower<'_> {
                 self.keep(traced, walker, &mut point);
             }
             First::Beyond(reading) => {
-                self.shape(traced, &mut point);
+                self.reader.add_shape(traced, &mut point);
                 // What lies between the branch point and the first point beyond it.
                 let passed = self.watched(traced, walker, &reading, &before, 1.0);
                 for (which, place) in passed {
@@ -264,7 +259,7 @@ impl Follower<'_> {
                 since_kept = 0;
                 self.keep(traced, walker, &mut point);
             } else {
-                self.shape(traced, &mut point);
+                self.reader.add_shape(traced, &mut point);
             }
             leg.points.push(point);
             self.tell(leg);
@@ -379,19 +374,6 @@ impl Follower<'_> {
         }
         let solution = self.reader.whole(traced, point.unstable_directions, point.error_estimate);
         point.solution = Some(Box::new(solution));
-    }
-
-    /// Adds a shape to a point at which the problem stands, if it is its turn.
-    fn shape(&self, traced: &mut Traced<'_>, point: &mut TracePoint) {
-        let (sections, since) = self.shaped.get();
-        if self.reader.shapes == 0 || since < sections / SECTIONS {
-            self.shaped.set((sections, since + 1));
-            return;
-        }
-        let shape = self.reader.shape(traced);
-        let own: usize = shape.beams.iter().map(|beam| beam.samples.len()).sum();
-        self.shaped.set((sections + own.max(1), 0));
-        point.shape = Some(Box::new(shape));
     }
 
     /// The last point is the end: it is kept as a whole.
@@ -573,7 +555,7 @@ impl Follower<'_> {
             let reading = self.read(traced, walker);
             let value = traced.axes[0].value(place.point.parameters[0]);
             let mut point = TracePoint { arc: walker.arc_at(part), ..regular(value, &place, reading, error) };
-            self.shape(traced, &mut point);
+            self.reader.add_shape(traced, &mut point);
             leg.points.push(point);
         }
     }

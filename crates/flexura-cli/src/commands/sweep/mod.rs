@@ -76,7 +76,7 @@ fn deliver(
 ) -> Result<(), Failure> {
     let path = arguments.output.as_deref();
     let whole = || samples.iter().fold(table.header(), |text, sample| text + &table.row(sample));
-    let unwritten = path.and_then(|path| files::replace(path, &whole()).err());
+    let unwritten = path.and_then(|path| files::replace(path, whole()).err());
     if unwritten.is_none() {
         rows.finish(samples, |sample| table.row(sample))?;
     }
