@@ -80,7 +80,7 @@ export class App {
       class: "overlay",
       tabindex: 0,
       role: "img",
-      "aria-label": "the mechanism; arrow keys turn it, plus and minus zoom, F fits it into view",
+      "aria-label": "the mechanism; arrow keys turn it, with shift they move it, plus and minus zoom, F fits it into view",
       keydown: (event) => this.key(event as KeyboardEvent),
     });
     const stage = h("div", { class: "stage", id: "stage" }, canvas, overlay, this.said);
@@ -262,12 +262,16 @@ export class App {
   }
 
   private key(event: KeyboardEvent): void {
-    const turn = 0.12;
+    const [turn, way] = [0.12, 30];
+    const arrow = (x: number, y: number): void => {
+      if (event.shiftKey) this.viewport.shift(way * x, way * y);
+      else this.viewport.move(turn * x, turn * y);
+    };
     const actions: Record<string, () => void> = {
-      ArrowLeft: () => this.viewport.move(-turn, 0),
-      ArrowRight: () => this.viewport.move(turn, 0),
-      ArrowUp: () => this.viewport.move(0, turn),
-      ArrowDown: () => this.viewport.move(0, -turn),
+      ArrowLeft: () => arrow(-1, 0),
+      ArrowRight: () => arrow(1, 0),
+      ArrowUp: () => arrow(0, 1),
+      ArrowDown: () => arrow(0, -1),
       "+": () => this.viewport.move(0, 0, 1.15),
       "=": () => this.viewport.move(0, 0, 1.15),
       "-": () => this.viewport.move(0, 0, 1 / 1.15),

@@ -156,6 +156,10 @@ test("the keyboard turns, zooms, fits and plays", async () => {
   await settled(page);
   const fitted = await tip();
   assert.ok(Math.hypot(fitted[0] - start[0], fitted[1] - start[1]) < 0.5);
+  await page.keyboard.press("Shift+ArrowRight");
+  await settled(page);
+  const shifted = await tip();
+  assert.ok(Math.abs(shifted[0] - fitted[0] - 30) < 3 && Math.abs(shifted[1] - fitted[1]) < 1, `${shifted} ${fitted}`);
   await page.evaluate(() => window.flexura.go({ branch: 0, point: 0 }));
   await page.keyboard.press(" ");
   await page.waitForFunction(() => window.flexura.spot.point > 3);

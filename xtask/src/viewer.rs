@@ -197,7 +197,8 @@ fn chromium() -> Outcome {
     if is_named || Path::new("/usr/bin/chromium").exists() {
         return Ok(());
     }
-    debian(&["chromium"])
+    // It brings no letters of its own.
+    debian(&["chromium", "fonts-dejavu-core"])
 }
 
 fn debian(packages: &[&str]) -> Outcome {

@@ -366,3 +366,36 @@ fn a_document_without_a_scene_is_still_read() {
     assert!(document.scene.beams.is_empty());
     assert!(solution_of(&document, &model()).is_ok());
 }
+
+#[test]
+fn another_state_has_a_scene_of_its_own_only_where_more_than_loads_differs() {
+    let (first, state) = (model(), solution());
+    let scene = flexura_output::scene(&first, &state).unwrap();
+    let beside = |model: &flexura_model::Model, state: &flexura_solution::Solution| {
+        flexura_output::scene_beside(&scene, model, state).unwrap()
+    };
+    let changed = |change: &dyn Fn(&mut flexura_model::Model)| {
+        let mut other = model();
+        change(&mut other);
+        beside(&other, &state)
+    };
+    assert!(beside(&first, &state).is_none());
+    assert!(changed(&|model| model.loads[0].force *= 2.0).is_none());
+    // Fewer samples of the same rest shape, bent otherwise.
+    let mut thin = state.clone();
+    thin.beams[0].samples = [0, 7, 20].map(|i| state.beams[0].samples[i].clone()).to_vec();
+    thin.beams[0].samples[1].pose.position.z += 0.01;
+    assert!(beside(&first, &thin).is_none());
+
+    assert!(changed(&|model| model.bodies[0].pose.position.x += 1e-3).is_some());
+    assert!(changed(&|model| model.gravity.z = -9.81).is_some());
+    let mut longer = state.clone();
+    for sample in &mut longer.beams[0].samples {
+        sample.s *= 1.5;
+        sample.rest_pose.position *= 1.5;
+    }
+    let own = beside(&first, &longer).unwrap();
+    let strip = own.beams.get("strip").unwrap();
+    assert!((strip.s[20] - 1.5 * LENGTH).abs() < 1e-9);
+    assert!(own.units.outputs.is_empty() && own.text.is_none());
+}

@@ -234,6 +234,26 @@ fn the_picture_shows_cables_tubes_and_every_kind_of_joint() {
 }
 
 #[test]
+fn the_picture_tells_masses_and_gravity_where_there_are_any() {
+    use flexura_model::{At, BeamId, BeamPoint, PointMass};
+    use flexura_spatial::Vector3;
+    let (mut model, solution) = (model(), solution());
+    let plain = shape_svg(&model, &solution);
+    assert!(!plain.contains(">mass<") && !plain.contains("gravity"));
+    model.gravity = Vector3::new(0.0, 0.0, -9.81);
+    model.bodies[0].mass = 2.5;
+    model.masses.push(PointMass {
+        name: "sensor".to_owned(),
+        point: BeamPoint { beam: BeamId(0), at: At::Fraction(1.0) },
+        mass: 0.05,
+    });
+    let text = shape_svg(&model, &solution);
+    for words in [">sensor 50 g<", ">2500 g<", ">mass<", ">gravity (0, 0, −9.81) m/s²<"] {
+        assert!(text.contains(words), "{words}");
+    }
+}
+
+#[test]
 fn the_picture_shows_the_course_of_a_spring_that_runs_over_something() {
     let (model, mut solution) = rich();
     let points = |text: &str| -> Vec<usize> {

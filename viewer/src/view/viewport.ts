@@ -227,6 +227,15 @@ export class Viewport {
     this.redraw();
   }
 
+  /** Moves what is seen to the right and up, CSS pixels. */
+  shift(right: number, up: number): void {
+    const way = new Vector3(-right, -up, 0).applyQuaternion(this.camera.quaternion).multiplyScalar(this.metresPerPixel);
+    this.camera.position.add(way);
+    this.controls.target.add(way);
+    this.controls.update();
+    this.redraw();
+  }
+
   /** Where a point is on the canvas, CSS pixels; z is its depth, between -1 and 1 where it is in sight. */
   project(p: Vec): Vec {
     const { width, height } = this.canvas.getBoundingClientRect();
