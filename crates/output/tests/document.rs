@@ -383,7 +383,7 @@ fn another_state_has_a_scene_of_its_own_only_where_more_than_loads_differs() {
     assert!(changed(&|model| model.loads[0].force *= 2.0).is_none());
     // Fewer samples of the same rest shape, bent otherwise.
     let mut thin = state.clone();
-    thin.beams[0].samples = [0, 7, 20].map(|i| state.beams[0].samples[i].clone()).to_vec();
+    thin.beams[0].samples = [0, 7, 20].map(|i| state.beams[0].samples[i]).to_vec();
     thin.beams[0].samples[1].pose.position.z += 0.01;
     assert!(beside(&first, &thin).is_none());
 

@@ -248,7 +248,7 @@ fn the_picture_tells_masses_and_gravity_where_there_are_any() {
         mass: 0.05,
     });
     let text = shape_svg(&model, &solution);
-    for words in [">sensor 50 g<", ">2500 g<", ">mass<", ">gravity (0, 0, −9.81) m/s²<"] {
+    for words in [">sensor 50 g<", ">2.5 kg<", ">mass<", ">gravity (0, 0, −9.81) m/s²<"] {
         assert!(text.contains(words), "{words}");
     }
 }
