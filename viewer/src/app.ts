@@ -325,7 +325,9 @@ export class App {
     }
     this.magnification = 1;
     const part = most / this.box.size;
-    if (!(part > 1e-12) || part >= UNSEEN) {
+    // Shapes among others are rounded, and so are their displacements.
+    const least = this.study.kind === "solve" || this.study.kind === "buckle" ? 1e-12 : 2e-6;
+    if (!(part > least) || part >= UNSEEN) {
       this.proposal = 1;
       return;
     }

@@ -92,6 +92,12 @@ test("the curve of a critical point in two parameters is a plot of its own", asy
   const values = await page.evaluate(() => window.flexura.app.study.branches[0].points.map((point) => point.values.slice(0, 2)));
   assert.deepEqual(values, points.map((point) => [point.second_parameter, point.parameter]));
   assert.ok(await page.isVisible("#plot"));
+  // Every point of it is drawn, with the thickness that it has there.
+  for (const point of [0, points.length - 1]) {
+    await page.evaluate((point) => window.flexura.go({ branch: 0, point }), point);
+    const height = await page.evaluate(() => Object.values(window.flexura.app.seen().scene.beams)[0].width[0]);
+    assert.ok(Math.abs(height - points[point].second_parameter) < 1e-9, `${height} ${points[point].second_parameter}`);
+  }
   await page.close();
 });
 
@@ -100,6 +106,33 @@ test("a path opens where it ends stable, else where it was stable last", async (
   const { page } = await opened(context, path);
   const { branch, point } = await page.evaluate(() => window.flexura.spot);
   assert.equal(document.branches[branch].points[point].stable, true);
+  await page.close();
+});
+
+test("displacements that are only rounded numbers get no factor", async () => {
+  const { page: path } = made("rounded", "sweep", model("euler_clamped_pinned"), "--vary", "push=1:30:6", "--vary", "length=100 mm:300 mm:4");
+  const { page } = await opened(context, path);
+  assert.equal(await page.evaluate(() => window.flexura.app.proposal), 1);
+  await page.close();
+});
+
+test("a path that could not be followed to its end says where and why", async () => {
+  const { document } = made("broken", "run", model("lee_frame"), "path");
+  const [branch] = document.branches;
+  const broken = { ...document, status: "stalled", reason: "no way on", branches: [{ ...branch, ends: ["start", "stalled"], end_reasons: [null, "the steps became too short"] }] };
+  const { page } = await opened(context, shown("broken", broken));
+  assert.ok((await page.textContent("#table")).includes("stalled: the steps became too short"));
+  assert.match(await page.textContent(".marks"), /— stable +- - unstable +○ fold +× not followed further/);
+  const red = await page.evaluate((point) => {
+    const canvas = document.querySelector("#plot canvas");
+    const [x, y] = window.flexura.locate({ branch: 0, point });
+    const box = canvas.getBoundingClientRect();
+    window.flexura.go({ branch: 0, point: 0 });
+    const scale = canvas.width / box.width;
+    const { data } = canvas.getContext("2d").getImageData(Math.round((x - box.left) * scale) - 1, Math.round((y - box.top) * scale) - 1, 3, 3);
+    return [...data].filter((_, i) => i % 4 === 0 && data[i] > 150 && data[i + 1] < 80).length;
+  }, branch.points.length - 1);
+  assert.ok(red > 0);
   await page.close();
 });
 

@@ -24,6 +24,16 @@ export interface Point {
 export interface Branch {
   label: string;
   points: Point[];
+  /** Of a path: why it ends where it does, at its first and at its last point. */
+  ends?: [End, End];
+}
+
+export interface End {
+  /** "start", "range", "stop", "closed", "point_limit", "stalled" or "interrupted". */
+  word: string;
+  reason: string;
+  /** Could it not be followed further? */
+  isBrokenOff: boolean;
 }
 
 export interface Mode {
@@ -206,6 +216,18 @@ interface TracePoint extends StateDocument, ShownDocument {
   unstable_directions: number | null;
 }
 
+interface BranchDocument {
+  origin: string;
+  points: TracePoint[];
+  ends?: string[];
+  end_reasons?: (string | null)[];
+}
+
+function endOf(branch: BranchDocument, side: 0 | 1): End {
+  const word = branch.ends?.[side] ?? "";
+  return { word, reason: branch.end_reasons?.[side] ?? "", isBrokenOff: ["stalled", "point_limit", "interrupted"].includes(word) };
+}
+
 const ORIGINS: Names<string> = {
   rest: "from rest",
   branch_point: "from a branch point",
@@ -215,7 +237,7 @@ const ORIGINS: Names<string> = {
 
 function ofTrace(study: Study): Study {
   const { document, scene } = study;
-  const branches = (document.branches as { origin: string; points: TracePoint[] }[]) ?? [];
+  const branches = (document.branches as BranchDocument[] | undefined) ?? [];
   const all = branches.flatMap((branch) => branch.points);
   const outputs = new Outputs(
     all.map((point) => point.outputs),
@@ -241,6 +263,7 @@ function ofTrace(study: Study): Study {
     branches: branches.map((branch, i) => ({
       label: `${i + 1} ${ORIGINS[branch.origin] ?? branch.origin}`,
       points: branch.points.map(pointOf),
+      ends: [endOf(branch, 0), endOf(branch, 1)],
     })),
   };
 }

@@ -9,6 +9,8 @@ import { digits, scaleOf } from "../units";
 
 /** Nearer than this a click means a point, px. */
 const NEAR = 40;
+/** Width and dashes of a line, px, by what is known of its stability. */
+const LINES: Record<string, [number, number[]]> = { stable: [2, []], unstable: [2, [6, 4]], undecided: [1, []] };
 
 type Placer = (values: number[]) => [number, number] | null;
 
@@ -135,6 +137,7 @@ export class Plot {
       if (this.hidden.has(i)) return;
       if (this.study.isJoined) this.lines(placed, c, branch, colourOf(i), ratio);
       this.dots(placed, c, branch, colourOf(i), ratio);
+      this.brokenOff(placed, c, branch, ratio);
     });
     const point = this.study.branches[this.here.branch]?.points[this.here.point];
     const place = point && placed(point.values);
@@ -168,17 +171,18 @@ export class Plot {
 
   private lines(placed: Placer, c: CanvasRenderingContext2D, branch: Branch, colour: string, ratio: number): void {
     c.strokeStyle = colour;
-    c.lineWidth = 2 * ratio;
     c.lineJoin = "round";
     // A piece is as its ends are; at a fold or branch point itself nothing is decided, so the other end says it.
     const kindOf = (i: number): string => {
       const known = [branch.points[i - 1]!.stable, branch.points[i]!.stable].find((stable) => stable !== null);
-      return known === false ? "unstable" : "stable";
+      return known === undefined ? "undecided" : known ? "stable" : "unstable";
     };
     let run = "";
     c.beginPath();
     const finish = (): void => {
-      c.setLineDash(run === "unstable" ? [6 * ratio, 4 * ratio] : []);
+      const [width, dashes] = LINES[run] ?? LINES.stable!;
+      c.lineWidth = width * ratio;
+      c.setLineDash(dashes.map((length) => length * ratio));
       c.stroke();
       c.beginPath();
     };
@@ -223,6 +227,24 @@ export class Plot {
       if (point.kind !== "failed") c.fill();
       c.stroke();
     }
+  }
+
+  /** Crosses where a branch could not be followed further. */
+  private brokenOff(placed: Placer, c: CanvasRenderingContext2D, branch: Branch, ratio: number): void {
+    branch.ends?.forEach((end, side) => {
+      const point = branch.points[side === 0 ? 0 : branch.points.length - 1];
+      const place = end.isBrokenOff && point ? placed(point.values) : null;
+      if (!place) return;
+      const [[x, y], r] = [place, 4.5 * ratio];
+      c.strokeStyle = this.theme.alarm;
+      c.lineWidth = 2 * ratio;
+      c.beginPath();
+      for (const sign of [-1, 1]) {
+        c.moveTo(x - r, y - sign * r);
+        c.lineTo(x + r, y + sign * r);
+      }
+      c.stroke();
+    });
   }
 
   private listen(u: uPlot): void {

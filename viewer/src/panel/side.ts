@@ -1,9 +1,27 @@
 /** The panel beside the window: plot with its legend, table, model file. */
 
 import type { App } from "../app";
+import type { Study } from "../data/study";
 import { button, choice, copy, fileName, h, save } from "./dom";
 import { colourOf } from "./plot";
 import { asText, csvOf, groupsOf, render } from "./table";
+
+/** What lines and marks of a path mean: those that there are. */
+function legendOf(study: Study): string {
+  const points = study.branches.flatMap((branch) => branch.points);
+  const special = (kind: string): boolean => points.some((point) => point.kind === kind);
+  const isBroken = study.branches.some((branch) => branch.ends?.some((end) => end.isBrokenOff));
+  const all: [boolean, string][] = [
+    [points.some((point) => point.stable === true), "— stable"],
+    [points.some((point) => point.stable === false), "- - unstable"],
+    [points.every((point) => point.stable === null), "thin: stability not decided"],
+    [special("fold"), "○ fold"],
+    [special("branch"), "□ branch point"],
+    [special("event"), "△ event"],
+    [isBroken, "× not followed further"],
+  ];
+  return all.flatMap(([isThere, text]) => (isThere ? [text] : [])).join("   ");
+}
 
 export class Side {
   readonly element = h("aside", { class: "side", "aria-label": "results" });
@@ -60,7 +78,7 @@ export class Side {
       const go = button(branch.label, `move to branch ${branch.label}`, () => this.app.go({ branch: i, point: 0 }), { id: `go-branch-${i}` });
       return h("li", {}, box, swatch, go);
     });
-    const marks = study.isJoined && study.kind === "trace" ? h("p", { class: "marks" }, "— stable   - - unstable   ○ fold   □ branch point   △ event") : null;
+    const marks = study.isJoined && study.kind === "trace" ? h("p", { class: "marks" }, legendOf(study)) : null;
     return h("div", { class: "legend" }, h("ul", { id: "legend" }, ...entries), marks);
   }
 

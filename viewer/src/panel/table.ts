@@ -66,7 +66,8 @@ function statusRows(study: Study, point: Point | undefined): Row[] {
     rows.push({ name: "load reached", text: `${(100 * document.load_fraction).toPrecision(4)} %`, value: document.load_fraction });
   }
   if (point?.note || point?.kind === "fold" || point?.kind === "branch") {
-    rows.push({ name: "this point", text: [plain(point.kind), point.note].filter(Boolean).join(": ") });
+    const isSpecial = point.kind === "fold" || point.kind === "branch" || point.kind === "event";
+    rows.push({ name: "this point", text: [isSpecial ? plain(point.kind) : "", point.note].filter(Boolean).join(": ") });
   }
   if (study.kind !== "sweep" && study.kind !== "inverse_dynamics") {
     const words = point?.stable === true ? "stable" : point?.stable === false ? "unstable" : "not decided";
@@ -74,6 +75,11 @@ function statusRows(study: Study, point: Point | undefined): Row[] {
     const why = document.stability_reason;
     if (point?.stable === null && typeof why === "string") rows.push({ name: "why", text: why });
   }
+  study.branches.forEach((branch, i) => {
+    for (const end of branch.ends ?? []) {
+      if (end.isBrokenOff) rows.push({ name: `branch ${i + 1}`, text: `${plain(end.word)}${end.reason ? `: ${end.reason}` : ""}` });
+    }
+  });
   for (const warning of document.warnings ?? []) rows.push({ name: "warning", text: warning, value: warning });
   return rows;
 }
