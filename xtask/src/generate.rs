@@ -32,7 +32,7 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
 
 /// The commands that the reference page of the command line describes.
 const VERBS: &[&str] =
-    &["", "solve", "trace", "buckle", "run", "sweep", "check", "examples", "schema", "completions"];
+    &["", "solve", "trace", "buckle", "run", "sweep", "check", "examples", "view", "schema", "completions"];
 
 /// A file and what it should hold.
 type Page = (PathBuf, String);

@@ -11,6 +11,7 @@ const FLOORS: &[&[&str]] = &[
     &["modelfile", "equilibrium", "post"],
     &["study"],
     &["output"],
+    &["report", "raster"],
     &["flexura"],
     &["flexura-cli"],
 ];

@@ -3,6 +3,8 @@
 //! ```text
 //! cargo xtask test       everything that must hold: the checks, the tests, the documentation
 //! cargo xtask generate   rewrite the files that are generated
+//! cargo xtask page       rebuild the page that shows results, from viewer/
+//! cargo xtask pictures   photograph the page: the gallery, and the pictures of the README
 //! cargo xtask tidy       the checks that compile nothing
 //! cargo xtask campaign   random mechanisms and damaged files for every verb, their answers verified by other means
 //! ```
@@ -19,17 +21,19 @@ mod python;
 mod step;
 mod test;
 mod tidy;
+mod viewer;
 
 use std::process::ExitCode;
 
-const USAGE: &str =
-    "usage: cargo xtask <test | generate | tidy | campaign [--seed S] [--count N] [--jobs J]>";
+const USAGE: &str = "usage: cargo xtask <test | generate | page | pictures | tidy | campaign [--seed S] [--count N] [--jobs J]>";
 
 fn main() -> ExitCode {
     let verb = std::env::args().nth(1).unwrap_or_default();
     let result = match verb.as_str() {
         "test" => test::run(),
         "generate" => generate::write(),
+        "page" => viewer::build(),
+        "pictures" => generate::build().and_then(|()| viewer::pictures()),
         "tidy" => tidy::run(),
         "campaign" => campaign::run(std::env::args().skip(2)),
         _ => Err(USAGE.to_string()),

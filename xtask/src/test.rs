@@ -1,12 +1,13 @@
 //! Everything that must hold, cheapest first.
 
 use crate::step::{Outcome, Step, check, exists};
-use crate::{generate, python, tidy};
+use crate::{generate, python, tidy, viewer};
 use std::path::Path;
 
 pub fn run() -> Outcome {
     tidy::run()?;
     let python = python::prepare()?;
+    viewer::prepare()?;
     // All targets: benches and examples must compile too.
     Step::new("lints", "cargo clippy --workspace --all-targets -- -D warnings").run()?;
     tests(&python)?;
@@ -15,6 +16,7 @@ pub fn run() -> Outcome {
         .variable("RUSTDOCFLAGS", "-D warnings")
         .run()?;
     generate::build()?;
+    viewer::test()?;
     check("generated files are up to date", "test", generate::check)?;
     python::check_schema(&python)?;
     println!("\nall checks and tests passed");

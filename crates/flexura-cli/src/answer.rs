@@ -1,15 +1,18 @@
 //! What a study has to say, and how it gets to the screen and onto the disk.
 
-use crate::arguments::ModelArguments;
+use crate::arguments::{ModelArguments, ShownArguments};
 use crate::commands::{file_failure, warn_about, warn_of_outputs};
 use crate::failure::Failure;
 use crate::files::{self, Growing};
 use crate::interrupt;
-use crate::screen;
+use crate::shown::Shown;
+use crate::{page, screen};
 use flexura::Options;
 use flexura::model::{Model, visible};
 use flexura::modelfile::Document;
-use flexura::output::{self, BucklingDocument, InverseDynamicsDocument, TraceDocument, to_json};
+use flexura::output::{
+    self, BucklingDocument, InverseDynamicsDocument, SceneDocument, TraceDocument, to_json,
+};
 use flexura::post::PostError;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -21,6 +24,8 @@ pub struct Task<'a> {
     pub overrides: &'a [(String, String)],
     pub options: Options,
     pub folder: Option<PathBuf>,
+    /// What is wanted by its name.
+    pub shown: Shown,
     pub is_json: bool,
     pub is_quiet: bool,
 }
@@ -30,7 +35,7 @@ impl<'a> Task<'a> {
     pub fn new(
         arguments: &'a ModelArguments,
         file: Document,
-        folder: Option<&Path>,
+        (folder, shown): (Option<&Path>, &ShownArguments),
         tolerance: Option<f64>,
     ) -> Result<Self, Failure> {
         let overrides = &arguments.overrides;
@@ -45,22 +50,46 @@ impl<'a> Task<'a> {
         }
         let folder = folder.map(Path::to_path_buf);
         let (is_json, is_quiet) = (arguments.json, arguments.quiet);
-        Ok(Self { file, model, overrides, options, folder, is_json, is_quiet })
+        let shown = Shown::new(shown)?;
+        if is_json || folder.is_some() || shown.wants_page() {
+            options.shapes = SHAPE;
+        }
+        Ok(Self { file, model, overrides, options, folder, shown, is_json, is_quiet })
     }
 
     /// Will anybody read the result document?
     pub fn wants_document(&self) -> bool {
-        self.is_json || self.folder.is_some()
+        self.is_json || self.folder.is_some() || self.shown.is_wanted()
+    }
+
+    /// Are the files beside the document made, of which pictures are some?
+    pub fn wants_files(&self) -> bool {
+        self.folder.is_some() || self.shown.wants_picture()
+    }
+
+    /// The scene of a document tells the model file too.
+    pub fn with_text(&self, mut answer: Answer) -> Answer {
+        if let Some(scene) = answer.document.as_mut().and_then(StudyDocument::scene) {
+            scene.text = Some(self.file.text().to_owned());
+        }
+        answer
     }
 
     /// Writes the files, prints document or summary, tells the warnings, and ends as the study did.
-    pub fn deliver(&self, mut answer: Answer) -> Result<(), Failure> {
+    pub fn deliver(&self, answer: Answer) -> Result<(), Failure> {
         let is_interrupted = self.options.interrupt.is_raised();
+        let mut answer = self.with_text(answer);
         // What has no room on the disk is shown nevertheless.
         let (written, unwritten) = match self.write(&mut answer, self.folder.as_deref()) {
             Ok(written) => (written, None),
             Err(failure) => (None, Some(failure)),
         };
+        let text = match (&written, &answer.document) {
+            (None, Some(document)) if self.shown.wants_page() => Some(json(document)?),
+            _ => written.clone(),
+        };
+        let shown = self.shown.write(text.as_deref(), &answer.pictures()).err();
+        let unwritten = unwritten.or(shown);
         if let Some(document) = answer.document.as_ref().filter(|_| self.is_json) {
             screen::print_table(&written.map_or_else(|| json(document), Ok)?)?;
         } else if !self.is_quiet {
@@ -75,6 +104,7 @@ impl<'a> Task<'a> {
         }
         if !self.is_quiet {
             self.tell_files(&answer, self.folder.as_deref());
+            self.shown.tell();
         }
         match answer.failure {
             // It may have been ended in what comes after the equilibrium.
@@ -88,8 +118,9 @@ impl<'a> Task<'a> {
     /// Writes the files of an answer; the text of the document, if there is a folder.
     pub fn write(&self, answer: &mut Answer, folder: Option<&Path>) -> Result<Option<String>, Failure> {
         let (Some(folder), Some(document)) = (folder, &answer.document) else { return Ok(None) };
-        let names = answer.files.iter().map(|(name, _)| *name).collect();
+        let names = answer.files.iter().map(|(name, _)| *name).chain([page::NAME]).collect();
         let text = json(&Written { document, files: names })?;
+        answer.files.push((page::NAME, page::of_text(&text)?));
         files::replace_all(folder, &text, &answer.files)?;
         answer.growing.take().into_iter().for_each(Growing::finish);
         Ok(Some(text))
@@ -105,11 +136,14 @@ impl<'a> Task<'a> {
     }
 }
 
+/// Sections along each beam of the shapes between those states of a path that are kept whole.
+const SHAPE: usize = 17;
+
 /// What came out of a study.
 pub struct Answer {
     /// The result document, where somebody wants it.
     pub document: Option<StudyDocument>,
-    /// Further files by name, where a folder is given.
+    /// Further files by name, where a folder is given or a picture is wanted.
     pub files: Vec<(&'static str, String)>,
     /// What a person reads.
     pub summary: String,
@@ -120,6 +154,14 @@ pub struct Answer {
     pub failure: Option<Failure>,
     /// The rows that were written on the way.
     pub growing: Option<Growing>,
+}
+
+impl Answer {
+    /// Its pictures, as they are written into a folder.
+    pub fn pictures(&self) -> Vec<String> {
+        let drawn = self.files.iter().filter(|(name, _)| name.ends_with(".svg"));
+        drawn.map(|(_, picture)| picture.clone()).collect()
+    }
 }
 
 /// The result document of any study.
@@ -138,6 +180,18 @@ struct Written<'a> {
     #[serde(flatten)]
     document: &'a StudyDocument,
     files: Vec<&'static str>,
+}
+
+impl StudyDocument {
+    /// What there is to draw.
+    fn scene(&mut self) -> Option<&mut SceneDocument> {
+        match self {
+            StudyDocument::Solve(document) => Some(&mut document.scene),
+            StudyDocument::Trace(document) => document.scene.as_mut(),
+            StudyDocument::Buckling(document) => Some(&mut document.scene),
+            StudyDocument::InverseDynamics(document) => document.scene.as_mut(),
+        }
+    }
 }
 
 /// The text of a document.

@@ -32,6 +32,8 @@ pub enum Command {
     Check(CheckArguments),
     /// List the bundled models, or write one of them here
     Examples(ExamplesArguments),
+    /// Write the page that shows a result, and open it in the browser
+    View(ViewArguments),
     /// Print the JSON Schema of model files, for editors
     Schema,
     /// Print a completion script for a shell
@@ -55,10 +57,23 @@ pub struct ModelArguments {
 }
 
 #[derive(Args)]
+pub struct ShownArguments {
+    /// Write one HTML page that shows the result, with all that it needs
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// Write a still picture of the result
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Write the same picture as pixels
+    #[arg(long, value_name = "FILE")]
+    pub png: Option<PathBuf>,
+}
+
+#[derive(Args)]
 pub struct SolveArguments {
     #[command(flatten)]
     pub model: ModelArguments,
-    /// Write result.json, beams.csv, model.vtp and shape.svg into this folder
+    /// Write result.json, beams.csv, model.vtp, shape.svg and report.html into this folder
     #[arg(long, short = 'o', value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
@@ -80,6 +95,8 @@ pub struct SolveArguments {
     /// Seed of the random states; the same seed finds the same equilibria [default: 0]
     #[arg(long, value_name = "S", requires = "guesses")]
     pub seed: Option<u64>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
 }
 
 #[derive(Args)]
@@ -123,12 +140,14 @@ pub struct TraceArguments {
     /// Which of the folds and branch points found, counted from 1 [default: 1]
     #[arg(long, value_name = "N", requires = "critical")]
     pub critical_number: Option<String>,
-    /// Write result.json, path.csv, diagram.svg and shapes.svg into this folder, and critical.csv with --critical
+    /// Write result.json, path.csv, diagram.svg, shapes.svg and report.html into this folder, and critical.csv with --critical
     #[arg(long, short = 'o', value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
 }
 
 #[derive(Args)]
@@ -145,12 +164,14 @@ pub struct BuckleArguments {
     /// How many critical values, those nearest to V first [default: 3]
     #[arg(long, value_name = "N")]
     pub count: Option<String>,
-    /// Write result.json, modes.csv and shapes.svg into this folder
+    /// Write result.json, modes.csv, shapes.svg and report.html into this folder
     #[arg(long, short = 'o', value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
 }
 
 #[derive(Args)]
@@ -165,6 +186,8 @@ pub struct RunArguments {
     /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
 }
 
 #[derive(Args)]
@@ -184,6 +207,8 @@ pub struct SweepArguments {
     /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
 }
 
 #[derive(Args)]
@@ -199,6 +224,18 @@ pub struct ExamplesArguments {
     /// Overwrite a file of that name
     #[arg(long, requires = "name")]
     pub force: bool,
+}
+
+#[derive(Args)]
+pub struct ViewArguments {
+    /// The result document (result.json) of any study
+    pub result: PathBuf,
+    /// Write the page into this file [default: beside the result, with the ending .html]
+    #[arg(long, short = 'o', value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Only write the page
+    #[arg(long)]
+    pub no_open: bool,
 }
 
 #[derive(Args)]

@@ -29,8 +29,8 @@ const NAMES: [&str; 12] = [
 pub const RESULT: &str = "result.json";
 
 /// Writes a file in place of what stands there.
-pub fn replace(path: &Path, text: &str) -> Result<(), Failure> {
-    Beside::write(path, text).and_then(Beside::rename).map_err(|error| unwritable(path, &error))
+pub fn replace(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
+    Beside::write(path, content.as_ref()).and_then(Beside::rename).map_err(|error| unwritable(path, &error))
 }
 
 /// Writes the files of a study into a folder, the document last, and takes away what an earlier study has written there
@@ -42,7 +42,7 @@ pub fn replace_all(folder: &Path, result: &str, files: &[(&str, String)]) -> Res
     let mut written = Vec::with_capacity(files.len() + 1);
     for (name, text) in all {
         let path = folder.join(name);
-        let beside = Beside::write(&path, text).map_err(|error| unwritable(&path, &error))?;
+        let beside = Beside::write(&path, text.as_bytes()).map_err(|error| unwritable(&path, &error))?;
         written.push((path, beside));
     }
     for name in earlier.iter().filter(|name| files.iter().all(|(new, _)| new != *name)) {
@@ -99,19 +99,19 @@ enum Beside {
 }
 
 impl Beside {
-    fn write(path: &Path, text: &str) -> Result<Self, Error> {
+    fn write(path: &Path, content: &[u8]) -> Result<Self, Error> {
         // A link stays, and what it leads to is exchanged.
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
         let there = there(&path)?;
         if there.as_ref().is_some_and(|there| !there.is_file()) {
-            fs::write(&path, text)?;
+            fs::write(&path, content)?;
             return Ok(Beside::Written);
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let beside = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
         let waiting = Beside::Waiting(beside.clone(), path);
         let mut file = File::create(&beside)?;
-        file.write_all(text.as_bytes())?;
+        file.write_all(content)?;
         // Only now is it sure that the disk has room for it.
         file.sync_all()?;
         if let Some(there) = there {

@@ -12,9 +12,11 @@ mod failure;
 mod files;
 mod interrupt;
 mod motion_summary;
+mod page;
 mod progress;
 mod quantity;
 mod screen;
+mod shown;
 mod summary;
 mod table;
 mod trace_summary;
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
         Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Examples(arguments) => commands::examples::run(&arguments),
+        Command::View(arguments) => commands::view::run(&arguments),
         Command::Schema => commands::schema::run(),
         Command::Completions(arguments) => commands::completions::run(&arguments),
     };

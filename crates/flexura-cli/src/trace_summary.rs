@@ -339,6 +339,7 @@ mod tests {
             stable: unstable.map(|count| count == 0),
             unstable_directions: unstable,
             solution: None,
+            shape: None,
             directions: Vec::new(),
         }
     }

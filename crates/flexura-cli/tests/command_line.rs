@@ -131,6 +131,7 @@ fn help_names_every_verb_and_the_exit_codes() {
         "sweep",
         "check",
         "examples",
+        "view",
         "schema",
         "completions",
         "Exit codes",

@@ -59,7 +59,7 @@ fn a_trace_that_is_ended_keeps_its_points() {
     assert_eq!(code(&output), 130, "{}", stderr(&output));
     assert!(stderr(&output).contains("interrupted"), "{}", stderr(&output));
     assert!(stdout(&output).contains("interrupted"), "{}", stdout(&output));
-    assert_eq!(names(&folder), ["diagram.svg", "path.csv", "result.json", "shapes.svg"]);
+    assert_eq!(names(&folder), ["diagram.svg", "path.csv", "report.html", "result.json", "shapes.svg"]);
     let document = json(&folder.join("result.json"));
     assert_eq!(document["status"], "interrupted");
     assert_eq!(document["branches"][0]["ends"][1], "interrupted");
@@ -95,10 +95,11 @@ fn a_trace_that_is_killed_leaves_its_rows_and_the_earlier_result() {
     let columns = rows.lines().next().unwrap().split(',').count();
     assert!(rows.ends_with('\n') && rows.lines().all(|row| row.split(',').count() == columns), "{rows}");
     assert_eq!(text(&folder.join("result.json")), before);
-    assert_eq!(names(&folder), ["beams.csv", "model.vtp", "path.csv.partial", "result.json", "shape.svg"]);
+    let solved = ["beams.csv", "model.vtp", "path.csv.partial", "report.html", "result.json", "shape.svg"];
+    assert_eq!(names(&folder), solved);
     // The next one takes away what belongs to neither.
     assert_eq!(code(&trace("10").output().unwrap()), 0);
-    assert_eq!(names(&folder), ["diagram.svg", "path.csv", "result.json", "shapes.svg"]);
+    assert_eq!(names(&folder), ["diagram.svg", "path.csv", "report.html", "result.json", "shapes.svg"]);
     assert_eq!(json(&folder.join("result.json"))["files"][0], "path.csv");
 }
 

@@ -17,7 +17,11 @@ fn a_motion_is_summarised_and_written() {
     {
         assert!(text.contains(words), "{words}: {text}");
     }
-    assert!(stderr(&output).contains("wrote result.json, motion.csv and motion.svg"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("wrote result.json, motion.csv, motion.svg and report.html"),
+        "{}",
+        stderr(&output)
+    );
     let folder = folder.join("flexion");
     let table = std::fs::read_to_string(folder.join("motion.csv")).unwrap();
     let first = "time [s],theta [rad],rate [rad/s],acceleration [rad/s^2],r [m],f_r [N],f_theta [N],tau_a [N*m],\

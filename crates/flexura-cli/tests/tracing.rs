@@ -150,9 +150,11 @@ fn the_files_of_studies_lie_in_folders_of_their_names() {
     let folder = path.with_file_name("results");
     let output = run(&["run", shown(&path), "-o", shown(&folder), "--set", "force=2"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
-    assert!(stderr(&output).contains("wrote result.json, beams.csv, model.vtp and shape.svg into"));
+    assert!(
+        stderr(&output).contains("wrote result.json, beams.csv, model.vtp, shape.svg and report.html into")
+    );
     for study in ["one", "two"] {
-        for name in ["result.json", "beams.csv", "model.vtp", "shape.svg"] {
+        for name in ["result.json", "beams.csv", "model.vtp", "shape.svg", "report.html"] {
             assert!(folder.join(study).join(name).is_file(), "{study}/{name}");
         }
     }

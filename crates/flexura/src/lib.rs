@@ -133,7 +133,7 @@
 //!
 //! Not converging is no error: [`solution::Status`] says how a study ended, and the solution holds how far
 //! it came. [`post::evaluate`] gives stresses, safety factors and outputs; [`output::document`] the result
-//! document; [`output::beams_csv`], [`output::model_vtp`] and [`output::shape_svg`] the files.
+//! document; [`output::beams_csv`], [`output::model_vtp`] and [`output::shape_svg`] the files; [`report::page`] the page that shows a document.
 
 mod family;
 mod motion_file;
@@ -153,6 +153,8 @@ pub use flexura_model as model;
 pub use flexura_modelfile as modelfile;
 pub use flexura_output as output;
 pub use flexura_post as post;
+pub use flexura_raster as raster;
+pub use flexura_report as report;
 pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;
 pub use flexura_study::{

@@ -7,13 +7,18 @@ use crate::expression::{Dimension, Expression, ExpressionError, Kind, split};
 use crate::model::Model;
 use crate::modelfile::{Document, suggestion};
 use crate::post::{OutputResult, each_output};
-use crate::solution::Status;
+use crate::solution::{Solution, Status};
 use crate::{FileFamily, Options, solve_family};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A sweep of more samples than this is taken for a mistake.
 const MOST_SAMPLES: usize = 10_000_000;
+
+/// Sections of all shapes together, and of each beam in a shape at least and at most.
+const MOST_SECTIONS: usize = 20_000;
+const FEWEST_SECTIONS: usize = 5;
+const SECTIONS: usize = 17;
 
 /// One parameter of a sweep with its values.
 #[derive(Clone, Debug, PartialEq)]
@@ -203,6 +208,8 @@ pub struct Sample {
     pub energy: Option<f64>,
     /// Number of unstable directions; None where that is not decided.
     pub unstable_directions: Option<usize>,
+    /// Its state with few samples and the model that it belongs to, where shapes were asked for.
+    pub shape: Option<Box<(Model, Solution)>>,
     /// Estimated largest relative error.
     pub error_estimate: Option<f64>,
     /// Outputs without a value, by their positions, and why.
@@ -226,6 +233,8 @@ pub struct Sweep<'a> {
     overrides: Vec<(String, String)>,
     axes: Vec<Axis>,
     options: Options,
+    /// Some(n): every n-th sample keeps its shape.
+    shapes: Option<usize>,
 }
 
 impl<'a> Sweep<'a> {
@@ -256,7 +265,16 @@ impl<'a> Sweep<'a> {
         // Only outputs are read, and every place that one asks for is sampled anyway.
         let options =
             Options { samples: 2, sensitivities: false, compliances: Vec::new(), ..options.clone() };
-        Ok(Self { document, overrides: overrides.to_vec(), axes, options })
+        Ok(Self { document, overrides: overrides.to_vec(), axes, options, shapes: None })
+    }
+
+    /// Keeps shapes of the samples of a model with so many beams: of all of them, or evenly of so many that they do not fill the
+    /// memory.
+    pub fn with_shapes(mut self, beams: usize) -> Self {
+        let sections = self.count() * beams.max(1);
+        self.options.samples = (MOST_SECTIONS / sections).clamp(FEWEST_SECTIONS, SECTIONS);
+        self.shapes = Some((sections * FEWEST_SECTIONS).div_ceil(MOST_SECTIONS).max(1));
+        self
     }
 
     /// What is varied, the slowest first.
@@ -334,6 +352,7 @@ impl<'a> Sweep<'a> {
             output_reasons: Vec::new(),
             energy: None,
             unstable_directions: None,
+            shape: None,
             error_estimate: None,
             reason: None,
             warnings: Vec::new(),
@@ -382,6 +401,9 @@ impl<'a> Sweep<'a> {
         sample.energy = Some(solution.energy);
         sample.unstable_directions = solution.unstable_directions;
         sample.error_estimate = Some(solution.error_estimate);
+        if self.shapes.is_some_and(|every| position.is_multiple_of(every)) {
+            sample.shape = Some(Box::new((model, solution)));
+        }
         sample
     }
 }

@@ -2,6 +2,8 @@
 
 use crate::contact::ContactDocument;
 use crate::derivatives::{compliances, elasticities, motions, sensitivities};
+use crate::scene::scene;
+use crate::thin::shape_of;
 use crate::wire::{
     BeamDocument, BodyDocument, CableDocument, CouplingDocument, Document, EquilibriumDocument,
     JointDocument, SpringDocument, StateDocument, TubesDocument, Value, WorkDocument,
@@ -61,6 +63,7 @@ pub fn document(
         stable: solution.stable,
         unstable_directions: solution.unstable_directions,
         stability_reason: solution.stability_reason.clone(),
+        scene: scene(model, solution)?,
     })
 }
 
@@ -125,6 +128,7 @@ pub fn equilibrium_document(
         output_reasons: output_reasons(evaluation),
         bodies: bodies(model, solution)?,
         joints: joints(model, solution)?,
+        shape: Some(shape_of(model, solution)?),
     })
 }
 

@@ -13,7 +13,9 @@ mod document;
 mod json;
 mod motion;
 mod read;
+mod scene;
 mod svg;
+mod thin;
 mod trace;
 mod vtk;
 mod wire;
@@ -27,7 +29,15 @@ pub use motion::{
     SpringSeries, motion_csv, motion_document,
 };
 pub use read::{ReadError, read_document, solution_of};
-pub use svg::{diagram_svg, modes_svg, motion_svg, shape_svg, shapes_svg};
+pub use scene::{
+    BeamScene, BodyScene, BoundariesScene, BoundaryScene, CableScene, DistributedScene, FoundationScene,
+    HoldScene, JointScene, LoadDocument, LoadScene, MassScene, PlaceDocument, SceneDocument, SpringScene,
+    TubeScene, TubesScene, UnitsDocument, WrapScene, loads, scene, scene_beside,
+};
+pub use svg::{
+    SampleColumn, SweepView, diagram_svg, modes_svg, motion_svg, shape_svg, shapes_svg, stacked, sweep_svg,
+};
+pub use thin::shape_of;
 pub use trace::{
     BranchDocument, BucklingDocument, CriticalDocument, ModeDocument, MotionDocument, MotionsDocument,
     PointDocument, Remake, ShapeDocument, TraceDocument, TraceView, TraceWorkDocument, buckling_document,

@@ -1,6 +1,6 @@
 //! The result document's shape, field for field. SI units, quaternions as (w, x, y, z).
 
-use crate::{ContactDocument, Named};
+use crate::{ContactDocument, Named, SceneDocument};
 use serde::{Deserialize, Serialize};
 
 /// The result document of a solve.
@@ -92,10 +92,13 @@ pub struct Document {
     /// Why stability is not decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stability_reason: Option<String>,
+    /// What a picture needs besides.
+    #[serde(default)]
+    pub scene: SceneDocument,
 }
 
 /// The whole state of a mechanism, as in the result document of a solve.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StateDocument {
     /// The beams' states at their samples.
     pub beams: Named<BeamDocument>,
@@ -293,4 +296,7 @@ pub struct EquilibriumDocument {
     pub bodies: Named<BodyDocument>,
     /// The joints' states.
     pub joints: Named<JointDocument>,
+    /// The whole state, rounded, for pictures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<StateDocument>,
 }

@@ -49,6 +49,7 @@ fn a_converged_document_has_the_promised_keys_in_their_order() {
         "stable",
         "unstable_directions",
         "stability_reason",
+        "scene",
     ];
     assert_eq!(keys, promised);
     assert_eq!(value["status"], "converged");
@@ -331,4 +332,70 @@ fn a_spring_tells_its_strain_its_stress_and_its_course_and_is_read_back() {
     let (_, value) = written(&model, &solution);
     assert!(value["springs"]["return"].get("course").is_none());
     assert!(value["springs"]["return"].get("stress").is_none());
+}
+
+#[test]
+fn the_scene_tells_what_a_picture_needs() {
+    let (_, value) = written(&model(), &solution());
+    let scene = &value["scene"];
+    let strip = &scene["beams"]["strip"];
+    assert_eq!(strip["shape"], "rectangle");
+    assert_eq!(strip["width"], json!([common::WIDTH]));
+    assert_eq!(strip["height"], json!([HEIGHT]));
+    // Straight along x at rest.
+    let rest: Vec<[f64; 3]> = serde_json::from_value(strip["position"].clone()).unwrap();
+    assert_eq!(rest.len(), strip["s"].as_array().unwrap().len());
+    assert!(rest.iter().all(|[_, y, z]| *y == 0.0 && *z == 0.0) && (rest[20][0] - LENGTH).abs() < 1e-15);
+    assert_eq!(strip["start"]["kind"], "weld");
+    assert!(strip["start"]["place"].get("body").is_none());
+    assert_eq!(scene["beams"]["wire <\"b\">"]["width"], json!([]));
+    let load = &scene["loads"]["bend"];
+    assert_eq!((&load["force"], &load["frame"]), (&json!([0.0, 0.0, -1.0]), &json!("global")));
+    assert_eq!(load["place"]["body"], model().bodies[0].name.as_str());
+    let joint = scene["joints"].as_object().unwrap().values().next().unwrap();
+    assert_eq!((&joint["kind"], &joint["axis"]), (&json!("revolute"), &json!([0.0, 1.0, 0.0])));
+    assert_eq!(scene["springs"]["return"]["from"]["position"], json!([0.0, 0.0, -0.15]));
+    assert_eq!(scene["units"]["parameters"], json!({ "turn": "rad" }));
+}
+
+#[test]
+fn a_document_without_a_scene_is_still_read() {
+    let (_, mut value) = written(&model(), &solution());
+    value.as_object_mut().unwrap().remove("scene");
+    let document = read_document(&value.to_string()).unwrap();
+    assert!(document.scene.beams.is_empty());
+    assert!(solution_of(&document, &model()).is_ok());
+}
+
+#[test]
+fn another_state_has_a_scene_of_its_own_only_where_more_than_loads_differs() {
+    let (first, state) = (model(), solution());
+    let scene = flexura_output::scene(&first, &state).unwrap();
+    let beside = |model: &flexura_model::Model, state: &flexura_solution::Solution| {
+        flexura_output::scene_beside(&scene, model, state).unwrap()
+    };
+    let changed = |change: &dyn Fn(&mut flexura_model::Model)| {
+        let mut other = model();
+        change(&mut other);
+        beside(&other, &state)
+    };
+    assert!(beside(&first, &state).is_none());
+    assert!(changed(&|model| model.loads[0].force *= 2.0).is_none());
+    // Fewer samples of the same rest shape, bent otherwise.
+    let mut thin = state.clone();
+    thin.beams[0].samples = [0, 7, 20].map(|i| state.beams[0].samples[i]).to_vec();
+    thin.beams[0].samples[1].pose.position.z += 0.01;
+    assert!(beside(&first, &thin).is_none());
+
+    assert!(changed(&|model| model.bodies[0].pose.position.x += 1e-3).is_some());
+    assert!(changed(&|model| model.gravity.z = -9.81).is_some());
+    let mut longer = state.clone();
+    for sample in &mut longer.beams[0].samples {
+        sample.s *= 1.5;
+        sample.rest_pose.position *= 1.5;
+    }
+    let own = beside(&first, &longer).unwrap();
+    let strip = own.beams.get("strip").unwrap();
+    assert!((strip.s[20] - 1.5 * LENGTH).abs() < 1e-9);
+    assert!(own.units.outputs.is_empty() && own.text.is_none());
 }

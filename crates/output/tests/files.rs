@@ -59,8 +59,8 @@ fn foundations_have_columns_a_band_and_lists_only_where_there_are_any() {
 
     let text = shape_svg(&model, &solution);
     assert!(text.contains(">foundation<"));
-    // One band in three views, and one in the legend.
-    assert_eq!(text.matches("stroke=\"#ece0c8\"").count(), 4);
+    // One band in the one view of a plane mechanism, and one in the legend.
+    assert_eq!(text.matches("stroke=\"#ece0c8\"").count(), 2);
 
     let document = document(&model, &solution, &evaluation).unwrap();
     let value: serde_json::Value = serde_json::from_str(&to_json(&document).unwrap()).unwrap();
@@ -193,12 +193,14 @@ fn a_picture_of_what_did_not_converge_says_so() {
 }
 
 #[test]
-fn the_picture_has_three_views_and_names_what_it_shows() {
+fn the_picture_of_a_plane_mechanism_has_one_view_and_names_what_it_shows() {
     let text = shape_svg(&model(), &solution());
-    for words in
-        ["top view (xy)", "front view (xz)", "side view (yz)", "bent &amp; held", ">strip<", ">lever<"]
+    for words in ["front view (xz)", "bent &amp; held", ">strip<", ">lever<", ">return<", ">spring<", ">1 N<"]
     {
         assert!(text.contains(words), "{words}");
+    }
+    for words in ["top view (xy)", "side view (yz)", "isometric view"] {
+        assert!(!text.contains(words), "{words}");
     }
     assert!(text.contains("wire &lt;&quot;b&quot;&gt;"));
     assert!(!text.contains("NaN") && !text.contains("inf"));
@@ -213,16 +215,41 @@ fn the_picture_shows_cables_tubes_and_every_kind_of_joint() {
     let (model, solution) = rich();
     let text = shape_svg(&model, &solution);
     assert!(text.contains(">cable<"));
-    // Two cables in three views, and one line in the legend; three eyelets in three views, and one.
-    assert_eq!(text.matches("stroke=\"#7b3294\" stroke-width=\"1.2\"").count(), 7);
-    assert_eq!(text.matches("r=\"2.4\"").count(), 10);
-    // The robot is the third line: its whole axis in three views and the legend, and the outer tube's part in three.
+    for words in
+        ["top view (xy)", "front view (xz)", "side view (yz)", "isometric view", ">puller<", ">bowden<"]
+    {
+        assert!(text.contains(words), "{words}");
+    }
+    // Two cables in four views, and one line in the legend; three eyelets in four views, and one.
+    assert_eq!(text.matches("stroke=\"#7b3294\" stroke-width=\"1.2\"").count(), 9);
+    assert_eq!(text.matches("r=\"2.4\"").count(), 13);
+    // The robot is the third line: its whole axis in four views and the legend, and the outer tube's part in four.
     assert!(text.contains(">robot<"));
-    assert_eq!(text.matches("stroke=\"#009e73\" stroke-width=\"2.4\"").count(), 4);
-    assert_eq!(text.matches("stroke=\"#009e73\" stroke-width=\"4.2\"").count(), 3);
+    assert_eq!(text.matches("stroke=\"#009e73\" stroke-width=\"2.4\"").count(), 5);
+    assert_eq!(text.matches("stroke=\"#009e73\" stroke-width=\"4.2\"").count(), 4);
     assert!(!text.contains("NaN") && !text.contains("inf"));
     if let Ok(folder) = std::env::var("FLEXURA_PICTURES") {
         std::fs::write(std::path::Path::new(&folder).join("rich.svg"), text).unwrap();
+    }
+}
+
+#[test]
+fn the_picture_tells_masses_and_gravity_where_there_are_any() {
+    use flexura_model::{At, BeamId, BeamPoint, PointMass};
+    use flexura_spatial::Vector3;
+    let (mut model, solution) = (model(), solution());
+    let plain = shape_svg(&model, &solution);
+    assert!(!plain.contains(">mass<") && !plain.contains("gravity"));
+    model.gravity = Vector3::new(0.0, 0.0, -9.81);
+    model.bodies[0].mass = 2.5;
+    model.masses.push(PointMass {
+        name: "sensor".to_owned(),
+        point: BeamPoint { beam: BeamId(0), at: At::Fraction(1.0) },
+        mass: 0.05,
+    });
+    let text = shape_svg(&model, &solution);
+    for words in [">sensor 50 g<", ">2.5 kg<", ">mass<", ">gravity (0, 0, −9.81) m/s²<"] {
+        assert!(text.contains(words), "{words}");
     }
 }
 
@@ -242,5 +269,5 @@ fn the_picture_shows_the_course_of_a_spring_that_runs_over_something() {
     let over = middle + flexura_spatial::Vector3::new(0.0, 0.02, 0.03);
     solution.springs[0].course = vec![ends[0], over, middle + (over - middle) * 0.9, ends[1]];
     let text = shape_svg(&model, &solution);
-    assert_eq!(points(&text).iter().filter(|count| **count == 4).count(), 3, "{:?}", points(&text));
+    assert_eq!(points(&text).iter().filter(|count| **count == 4).count(), 4, "{:?}", points(&text));
 }

@@ -112,6 +112,8 @@ pub struct TracePoint {
     pub unstable_directions: Option<usize>,
     /// The whole state, at ends and special points, and at some others along the way.
     pub solution: Option<Box<Solution>>,
+    /// At other points, where shapes were asked for: the state with fewer samples, without derivatives.
+    pub shape: Option<Box<Solution>>,
     /// At folds and branch points: the directions in which the mechanism gives way without resistance.
     pub directions: Vec<Direction>,
 }

@@ -28,6 +28,8 @@ pub struct Options {
     pub from: Option<Box<Solution>>,
     /// Ends the study early, with what it has found, once it is raised.
     pub interrupt: Interrupt,
+    /// Samples along each beam of the shapes at those points of a path whose whole state is not kept; zero for no shapes.
+    pub shapes: usize,
 }
 
 impl Default for Options {
@@ -39,6 +41,7 @@ impl Default for Options {
             sensitivities: false,
             from: None,
             interrupt: Interrupt::default(),
+            shapes: 0,
         }
     }
 }

@@ -14,7 +14,8 @@ use flexura::{Buckled, FileFamily};
 pub fn run(arguments: &BuckleArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
     let file = file.with_study("buckle", &flags(arguments)).map_err(|report| file_failure(&report))?;
-    let task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
+    let places = (arguments.output.as_deref(), &arguments.shown);
+    let task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
     match task.model.studies.last().map(|study| (&study.name, &study.kind)) {
         Some((name, StudyKind::Buckle(buckle))) => task.deliver(study(&task, name, buckle)?),
         _ => Err(Failure::Machine(
@@ -40,7 +41,7 @@ pub fn study(task: &Task<'_>, name: &str, study: &BuckleStudy) -> Result<Answer,
     let mut files = Vec::new();
     if task.wants_document() {
         document = Some(StudyDocument::Buckling(Box::new(buckled.document().map_err(refused)?)));
-        if task.folder.is_some() {
+        if task.wants_files() {
             files.push(("modes.csv", modes_csv(model, buckling).map_err(refused)?));
             files.push(("shapes.svg", modes_svg(model, buckling)));
         }

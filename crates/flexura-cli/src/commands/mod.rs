@@ -11,6 +11,7 @@ pub mod schema;
 pub mod solve;
 pub mod sweep;
 pub mod trace;
+pub mod view;
 
 use crate::failure::Failure;
 use crate::screen;

@@ -27,7 +27,7 @@ pub fn study(task: &Task<'_>, name: &str, study: &InverseDynamicsStudy) -> Resul
     let mut files = Vec::new();
     if task.wants_document() {
         document = Some(StudyDocument::InverseDynamics(Box::new(motion_document(&view).map_err(refused)?)));
-        if task.folder.is_some() {
+        if task.wants_files() {
             files.push(("motion.csv", motion_csv(&view).map_err(refused)?));
             files.push(("motion.svg", motion_svg(&view)));
         }

@@ -14,12 +14,14 @@ use std::path::Path;
 
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
-    let task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
+    let places = (arguments.output.as_deref(), &arguments.shown);
+    let task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
     let studies = chosen(&task, arguments.study.as_deref())?;
     if !task.is_quiet {
         warn_about(&task.file, &[]);
     }
     let mut documents = Vec::new();
+    let mut pictures = Vec::new();
     let mut failed = Vec::new();
     for study in &studies {
         if task.options.interrupt.is_raised() {
@@ -28,7 +30,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
             continue;
         }
         let folder = task.folder.as_ref().map(|folder| folder.join(&study.name));
-        let mut answer = answer(&task, study, folder.as_deref())?;
+        let mut answer = task.with_text(answer(&task, study, folder.as_deref())?);
         let written = task.write(&mut answer, folder.as_deref()).map(drop);
         if !task.is_quiet && !task.is_json {
             let heading = styled(BOLD, &format!("study {}", study.name));
@@ -42,12 +44,14 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
                 task.tell_files(&answer, folder.as_deref());
             }
         }
+        pictures.extend(answer.pictures());
         let failure = written.err().or(answer.failure);
         failed.extend(failure.map(|failure| (study.name.as_str(), failure)));
         documents.extend(answer.document.map(|document| (study.name.clone(), document)));
     }
-    if task.is_json {
-        screen::print_table(&match (&arguments.study, documents.pop()) {
+    let mut text = None;
+    if task.is_json || task.shown.wants_page() {
+        text = Some(match (&arguments.study, documents.pop()) {
             (Some(_), Some((_, only))) => json(&only)?,
             (_, last) => {
                 documents.extend(last);
@@ -63,7 +67,14 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
                     studies: Named(documents),
                 })?
             }
-        })?;
+        });
+    }
+    task.shown.write(text.as_deref(), &pictures)?;
+    if let (Some(text), true) = (&text, task.is_json) {
+        screen::print_table(text)?;
+    }
+    if !task.is_quiet {
+        task.shown.tell();
     }
     end(failed, studies.len())
 }

@@ -21,7 +21,8 @@ const SAME: f64 = 1e-6;
 
 pub fn run(arguments: &SolveArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
-    let mut task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
+    let places = (arguments.output.as_deref(), &arguments.shown);
+    let mut task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
     add_options(arguments, &mut task)?;
     let guesses = arguments.guesses.map(|guesses| (guesses, arguments.seed.unwrap_or(0)));
     let answer = study(&task, guesses)?;
@@ -61,7 +62,7 @@ pub fn study(task: &Task<'_>, guesses: Option<(usize, u64)>) -> Result<Answer, F
         }
         document = Some(StudyDocument::Solve(Box::new(whole)));
     }
-    if task.folder.is_some() {
+    if task.wants_files() {
         files = vec![
             ("beams.csv", beams_csv(&model, &solution, &evaluation).map_err(refused)?),
             ("model.vtp", model_vtp(&model, &solution, &evaluation)),

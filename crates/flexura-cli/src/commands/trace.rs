@@ -19,7 +19,8 @@ use std::path::Path;
 pub fn run(arguments: &TraceArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
     let file = file.with_study("trace", &flags(arguments)).map_err(|report| file_failure(&report))?;
-    let task = Task::new(&arguments.model, file, arguments.output.as_deref(), arguments.tolerance)?;
+    let places = (arguments.output.as_deref(), &arguments.shown);
+    let task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
     match task.model.studies.last().map(|study| (&study.name, &study.kind)) {
         Some((name, StudyKind::Trace(trace))) => {
             task.deliver(study(&task, name, trace, task.folder.as_deref())?)
@@ -83,7 +84,7 @@ pub fn study(
     if task.wants_document() {
         let view = trace_view(model, study, &trace, &mut family);
         document = Some(StudyDocument::Trace(Box::new(trace_document(&view).map_err(refused)?)));
-        if folder.is_some() {
+        if task.wants_files() {
             files.push(("path.csv", path_csv(&view).map_err(refused)?));
             files.extend(critical_csv(&view).map_err(refused)?.map(|text| ("critical.csv", text)));
             files.push(("diagram.svg", diagram_svg(&view)));

@@ -7,6 +7,7 @@ use super::wire::{
 use crate::document::{
     finite, finite_list, finite_vectors, parameters, reasons_by_name, section_quaternions,
 };
+use crate::scene::scene;
 use crate::{Named, OutputError};
 use flexura_model::Output;
 use flexura_solution::{BodyMotion, Instant, JointMotion, JointSolution};
@@ -75,6 +76,7 @@ pub fn motion_document(view: &MotionView<'_>) -> Result<InverseDynamicsDocument,
             factorisations: motion.work.factorisations,
             residuals: motion.work.residuals,
         },
+        scene: instants.first().map(|instant| scene(model, &instant.state)).transpose()?,
     })
 }
 
@@ -129,6 +131,8 @@ fn joint_series(
         rows(field, &|instant| pick(&instant.joints()[i]).clone())
     };
     let wrenches = || instants.iter().map(|instant| instant.state.joints[i].wrench);
+    let contact = |instant: &Instant| instant.state.joints[i].contact.map(|contact| contact.point.into());
+    let contacts = instants.iter().filter_map(contact);
     Ok(JointSeries {
         names: names.iter().map(|name| (*name).to_owned()).collect(),
         coordinates: states("coordinates", |joint| &joint.coordinates)?,
@@ -137,5 +141,6 @@ fn joint_series(
         efforts: states("efforts", |joint| &joint.efforts)?,
         force: finite_vectors(path, "force", wrenches().map(|wrench| wrench.force.into()))?,
         moment: finite_vectors(path, "moment", wrenches().map(|wrench| wrench.moment.into()))?,
+        contact_point: finite_vectors(path, "contact_point", contacts)?,
     })
 }

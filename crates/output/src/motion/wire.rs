@@ -1,6 +1,6 @@
 //! The document of a motion in time, field for field. SI units, quaternions as (w, x, y, z). Every list has one entry for each time.
 
-use crate::Named;
+use crate::{Named, SceneDocument};
 use serde::Serialize;
 
 /// The result document of a motion in time.
@@ -58,6 +58,9 @@ pub struct InverseDynamicsDocument {
     pub energy: Vec<f64>,
     /// Work counters.
     pub work: MotionWorkDocument,
+    /// What a picture needs besides, at the first time; none where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scene: Option<SceneDocument>,
 }
 
 /// An output over time.
@@ -105,6 +108,9 @@ pub struct JointSeries {
     pub force: Vec<[f64; 3]>,
     /// Moment of the parent on the child about M's origin, global, N·m.
     pub moment: Vec<[f64; 3]>,
+    /// Of a rolling or contact joint: where the two touch, global, m.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub contact_point: Vec<[f64; 3]>,
 }
 
 /// A spring over time.

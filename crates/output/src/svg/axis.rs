@@ -79,7 +79,7 @@ pub fn shown(value: f64, unit: &str, digits: usize) -> String {
 }
 
 /// A number with so many significant digits, without zeros behind them.
-fn number(value: f64, digits: usize) -> String {
+pub fn number(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }

@@ -1,9 +1,10 @@
 //! The symbols: supports, joints, bodies, springs, loads.
 
+use super::axis::shown;
 use super::canvas::{Canvas, Style};
 use super::layout::Panel;
-use super::scene::{BodyMark, CableMark, JointMark, LoadMark, Support};
-use super::{CABLE, FAINT, INK, LOAD};
+use super::scene::{BodyMark, CableMark, JointMark, LoadMark, MassMark, Scene, SpringMark, Support};
+use super::{CABLE, FAINT, INK, LOAD, SPRING, shortened};
 use flexura_model::JointKind;
 use flexura_spatial::Vector3;
 
@@ -148,6 +149,7 @@ fn rails(canvas: &mut Canvas, at: [f64; 2], u: [f64; 2], gap: f64, is_grounded: 
 pub fn cable(canvas: &mut Canvas, panel: &Panel, cable: &CableMark) {
     let course = cable.course.iter().map(|point| panel.point(point));
     canvas.polyline(course, &Style::line(CABLE, 1.2));
+    name_course(canvas, panel, &cable.course, &cable.name, CABLE);
     for guide in &cable.guides {
         eyelet(canvas, panel.point(guide));
     }
@@ -207,19 +209,61 @@ pub fn diamond(canvas: &mut Canvas, at: [f64; 2], is_filled: bool) {
     }
 }
 
-/// A spring as a zigzag line; one that runs over something as its course.
-pub fn spring(canvas: &mut Canvas, panel: &Panel, course: &[Vector3<f64>]) {
-    let [from, to] = match course {
-        [from, to] => [panel.point(from), panel.point(to)],
+/// A spring as a zigzag line with its name; one that runs over something as its course.
+pub fn spring(canvas: &mut Canvas, panel: &Panel, spring: &SpringMark) {
+    match spring.course[..] {
+        [from, to] => zigzag(canvas, panel.point(&from), panel.point(&to)),
         _ => {
-            let style = Style::line("#666666", 1.2);
-            canvas.polyline(course.iter().map(|point| panel.point(point)), &style);
-            return;
+            let course = spring.course.iter().map(|point| panel.point(point));
+            canvas.polyline(course, &Style::line(SPRING, 1.2));
         }
+    }
+    name_course(canvas, panel, &spring.course, &spring.name, SPRING);
+}
+
+/// A mass, with its name and size.
+pub fn mass(canvas: &mut Canvas, panel: &Panel, mass: &MassMark) {
+    let [x, y] = panel.point(&mass.point);
+    canvas.circle([x, y], 3.4, INK, &Style::line("#ffffff", 0.8));
+    let name = shortened(&mass.name, super::BODY_NAME);
+    let text = format!("{name} {}", shown(mass.mass, "kg", 3));
+    canvas.text([x + 7.0, y + 12.0], text.trim_start(), "start", 10.5, INK);
+}
+
+/// Names of the springs and cables of a scene that are drawn as lines.
+pub fn names_of_strings(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
+    for spring in &scene.springs {
+        name_course(canvas, panel, &spring.course, &spring.name, SPRING);
+    }
+    for cable in &scene.cables {
+        name_course(canvas, panel, &cable.course, &cable.name, CABLE);
+    }
+}
+
+/// The name of something long and thin, beside its middle; none where it is seen from its end.
+fn name_course(
+    canvas: &mut Canvas,
+    panel: &Panel,
+    course: &[Vector3<f64>],
+    name: &str,
+    colour: &'static str,
+) {
+    let (Some(first), Some(last)) = (course.first(), course.last()) else { return };
+    let middle = match course.len() {
+        2 => (first + last) * 0.5,
+        count => course[count / 2],
     };
+    let ([x, y], [a, b], [c, d]) = (panel.point(&middle), panel.point(first), panel.point(last));
+    if (a - c).hypot(b - d) > 30.0 {
+        canvas.text([x + 7.0, y - 7.0], &shortened(name, 20), "start", 10.5, colour);
+    }
+}
+
+/// Zigzag between two places; a line where these are close together.
+pub fn zigzag(canvas: &mut Canvas, from: [f64; 2], to: [f64; 2]) {
     let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
     let length = dx.hypot(dy);
-    let style = Style::line("#666666", 1.2);
+    let style = Style::line(SPRING, 1.2);
     if length < 24.0 {
         canvas.line(from, to, &style);
         return;
@@ -248,16 +292,22 @@ pub fn load(canvas: &mut Canvas, panel: &Panel, load: &LoadMark) {
         // The force pulls at its point, unless the arrow would leave the view: then it pushes.
         let (from, to) = if panel.holds(ahead) { (at, ahead) } else { (behind, at) };
         arrow(canvas, from, to, LOAD);
+        // Beside the end that is away from the mechanism.
+        let [x, y] = if panel.holds(ahead) { to } else { from };
+        canvas.text([x + 6.0, y + 4.0], &shown(load.sizes[0], "N", 4), "start", 10.5, LOAD);
     }
     let depth = panel.depth(&load.moment);
     let moment = panel.direction(&load.moment);
     if depth.abs() > 0.5 {
         turn(canvas, at, depth > 0.0);
+        canvas.text([at[0] + 19.0, at[1] - 8.0], &shown(load.sizes[1], "N*m", 4), "start", 10.5, LOAD);
     } else if moment[0].hypot(moment[1]) > 0.2 {
         // A moment's vector carries two heads.
         let tip = |length: f64| [at[0] + length * moment[0], at[1] + length * moment[1]];
         arrow(canvas, at, tip(ARROW), LOAD);
         arrow(canvas, at, tip(ARROW - 8.0), LOAD);
+        let [x, y] = tip(ARROW);
+        canvas.text([x + 6.0, y + 4.0], &shown(load.sizes[1], "N*m", 4), "start", 10.5, LOAD);
     }
 }
 

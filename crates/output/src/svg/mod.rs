@@ -1,9 +1,10 @@
-//! Pictures. `shape.svg`: the initial and the deformed shape in the three principal views.
+//! Pictures. `shape.svg`: the initial and the deformed shape, in the one plane of a mechanism that stays in a plane, else in
+//! the three principal views and an isometric one.
 //!
-//! The views stand as in an engineering drawing and share one scale:
+//! The principal views stand as in an engineering drawing and share one scale:
 //!
 //! ```text
-//!   top  (x, y)   legend
+//!   top  (x, y)   legend        isometric
 //!   front(x, z)   side (y, z)
 //! ```
 //!
@@ -13,22 +14,29 @@ mod axis;
 mod canvas;
 mod curve;
 mod diagram;
+mod gradient;
 mod history;
 mod layout;
 mod marks;
 mod outlines;
+mod samples;
 mod scene;
 mod series;
 mod shapes;
+mod stack;
 
 pub use diagram::diagram_svg;
 pub use history::motion_svg;
+pub use samples::{SampleColumn, SweepView, sweep_svg};
 pub use shapes::{modes_svg, shapes_svg};
+pub use stack::stacked;
 
 use canvas::{Canvas, Style};
 use flexura_model::Model;
 use flexura_solution::{Solution, Status};
+use flexura_spatial::Vector3;
 use layout::{Panel, Sheet};
+pub(crate) use scene::initial_pose;
 use scene::{Knot, Scene};
 
 /// Colours that readers with any kind of colour vision tell apart (Okabe and Ito).
@@ -37,6 +45,9 @@ const INK: &str = "#222222";
 const FAINT: &str = "#9a9a9a";
 const LOAD: &str = "#b2182b";
 const CABLE: &str = "#7b3294";
+const SPRING: &str = "#666666";
+/// Boundaries of what moves.
+const MOVING: &str = "#555555";
 const FOUNDATION: &str = "#ece0c8";
 /// Characters of names at axes and curves, and beside bodies.
 const LONG_NAME: usize = 44;
@@ -50,7 +61,7 @@ const LEGEND_BEAMS: usize = 6;
 pub fn shape_svg(model: &Model, solution: &Solution) -> String {
     let scene = Scene::new(model, solution);
     let entries = legend_entries(&scene);
-    let sheet = Sheet::new(scene.bounds(), entries.len());
+    let sheet = Sheet::of(scene.bounds(), layout::LEGEND_LINE * entries.len() as f64);
     let mut canvas = Canvas::new(sheet.width, sheet.height);
 
     let title = if model.name.is_empty() { "mechanism" } else { &model.name };
@@ -83,21 +94,39 @@ fn draw_axes(canvas: &mut Canvas, sheet: &Sheet, panel: &Panel) {
     let [x, y, width, height] = panel.frame;
     canvas.ground(panel.frame);
     canvas.heading([x, y - 8.0], panel.title, 12.0);
+    let names = ["x", "y", "z"];
+    let Some(axes) = panel.axes else {
+        triad(canvas, panel, names);
+        return;
+    };
     let grid = Style::line("#e9e9e9", 0.8);
-    for (value, label) in sheet.ticks(panel.axes[0], panel) {
+    for (value, label) in sheet.ticks(0, panel) {
         let at = panel.horizontal(value);
         canvas.line([at, y], [at, y + height], &grid);
         canvas.text([at, y + height + 14.0], &label, "middle", 10.5, "#444444");
     }
-    for (value, label) in sheet.ticks(panel.axes[1], panel) {
+    for (value, label) in sheet.ticks(1, panel) {
         let at = panel.vertical(value);
         canvas.line([x, at], [x + width, at], &grid);
         canvas.text([x - 5.0, at + 3.5], &label, "end", 10.5, "#444444");
     }
-    let names = ["x", "y", "z"];
-    let [across, up] = panel.axes.map(|axis| format!("{} / {}", names[axis], sheet.unit));
+    let [across, up] = axes.map(|axis| format!("{} / {}", names[axis], sheet.unit));
     canvas.text([x + 0.5 * width, y + height + 30.0], &across, "middle", 11.5, INK);
     canvas.upright([x - 44.0, y + 0.5 * height], &up, 11.5);
+}
+
+/// The global axes in the lower left corner of a view that is in no plane of theirs.
+fn triad(canvas: &mut Canvas, panel: &Panel, names: [&str; 3]) {
+    const LENGTH: f64 = 26.0;
+    let [x, y, _, height] = panel.frame;
+    let from = [x + 30.0, y + height + 16.0];
+    for (name, axis) in names.into_iter().zip([Vector3::x(), Vector3::y(), Vector3::z()]) {
+        let along = panel.direction(&axis);
+        let place = |length: f64| [from[0] + length * along[0], from[1] + length * along[1]];
+        marks::arrow(canvas, from, place(LENGTH), "#444444");
+        let [x, y] = place(LENGTH + 9.0);
+        canvas.text([x, y + 3.5], name, "middle", 10.5, "#444444");
+    }
 }
 
 fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
@@ -117,7 +146,8 @@ fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
         canvas.polyline(outline.initial.iter().map(|point| panel.point(point)), &initial);
     }
     for outline in &scene.outlines {
-        let style = if outline.is_grounded { Style::line(INK, 1.6) } else { Style::line("#555555", 1.6) };
+        let colour = if outline.is_grounded { INK } else { MOVING };
+        let style = Style::line(colour, if outline.is_surface { 0.7 } else { 1.6 });
         canvas.polyline(outline.deformed.iter().map(|point| panel.point(point)), &style);
     }
     for spring in &scene.springs {
@@ -146,6 +176,9 @@ fn draw_scene(canvas: &mut Canvas, panel: &Panel, scene: &Scene) {
     for joint in &scene.joints {
         marks::joint(canvas, panel, joint);
     }
+    for mass in &scene.masses {
+        marks::mass(canvas, panel, mass);
+    }
     for load in &scene.loads {
         marks::load(canvas, panel, load);
     }
@@ -173,9 +206,13 @@ enum Entry {
     MoreBeams(usize),
     Foundation,
     Body,
+    Spring,
     Cable,
+    Contact { is_grounded: bool },
     Support,
     Load,
+    Mass,
+    Gravity(String),
 }
 
 fn legend_entries(scene: &Scene) -> Vec<Entry> {
@@ -192,14 +229,30 @@ fn legend_entries(scene: &Scene) -> Vec<Entry> {
     if !scene.bodies.is_empty() {
         entries.push(Entry::Body);
     }
+    if !scene.springs.is_empty() {
+        entries.push(Entry::Spring);
+    }
     if !scene.cables.is_empty() {
         entries.push(Entry::Cable);
+    }
+    if scene.outlines.iter().any(|outline| !outline.is_grounded) {
+        entries.push(Entry::Contact { is_grounded: false });
+    }
+    if scene.outlines.iter().any(|outline| outline.is_grounded) {
+        entries.push(Entry::Contact { is_grounded: true });
     }
     if !scene.supports.is_empty() || scene.joints.iter().any(|joint| joint.is_grounded) {
         entries.push(Entry::Support);
     }
     if !scene.loads.is_empty() {
         entries.push(Entry::Load);
+    }
+    if !scene.masses.is_empty() {
+        entries.push(Entry::Mass);
+    }
+    if scene.gravity != Vector3::zeros() {
+        let parts = scene.gravity.map(|part| axis::number(part, 3));
+        entries.push(Entry::Gravity(format!("gravity ({}, {}, {}) m/s²", parts.x, parts.y, parts.z)));
     }
     entries
 }
@@ -228,6 +281,15 @@ fn draw_legend(canvas: &mut Canvas, origin: [f64; 2], entries: &[Entry]) {
                 marks::diamond(canvas, middle, true);
                 "rigid body".to_owned()
             }
+            Entry::Spring => {
+                marks::zigzag(canvas, left, right);
+                "spring".to_owned()
+            }
+            Entry::Contact { is_grounded } => {
+                let colour = if *is_grounded { INK } else { MOVING };
+                canvas.line(left, right, &Style::line(colour, 1.6));
+                if *is_grounded { "boundary on the ground" } else { "moving boundary" }.to_owned()
+            }
             Entry::Cable => {
                 canvas.line(left, right, &Style::line(CABLE, 1.2));
                 marks::eyelet(canvas, middle);
@@ -241,8 +303,14 @@ fn draw_legend(canvas: &mut Canvas, origin: [f64; 2], entries: &[Entry]) {
                 marks::arrow(canvas, left, right, LOAD);
                 "load".to_owned()
             }
+            Entry::Mass => {
+                canvas.circle(middle, 3.4, INK, &Style::line("#ffffff", 0.8));
+                "mass".to_owned()
+            }
+            Entry::Gravity(text) => text.clone(),
         };
-        canvas.text([x + 34.0, y + 4.0], &label, "start", 11.5, INK);
+        let indent = if matches!(entry, Entry::Gravity(_)) { 0.0 } else { 34.0 };
+        canvas.text([x + indent, y + 4.0], &label, "start", 11.5, INK);
     }
 }
 

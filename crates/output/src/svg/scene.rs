@@ -75,12 +75,29 @@ pub struct LoadMark {
     pub point: Vector3<f64>,
     pub force: Vector3<f64>,
     pub moment: Vector3<f64>,
+    /// Sizes as they act, N and N·m.
+    pub sizes: [f64; 2],
+}
+
+/// A spring from end to end: two points, or more where it runs over something.
+pub struct SpringMark {
+    pub name: String,
+    pub course: Vec<Vector3<f64>>,
 }
 
 /// A cable's course, and the points that guide it.
 pub struct CableMark {
+    pub name: String,
     pub course: Vec<Vector3<f64>>,
     pub guides: Vec<Vector3<f64>>,
+}
+
+/// A mass on a beam, or a body's centre of mass; kg.
+pub struct MassMark {
+    /// Empty for a body, whose name stands at its origin.
+    pub name: String,
+    pub point: Vector3<f64>,
+    pub mass: f64,
 }
 
 /// All of it.
@@ -92,10 +109,12 @@ pub struct Scene {
     pub supports: Vec<Support>,
     pub joints: Vec<JointMark>,
     pub outlines: Vec<Outline>,
-    /// From end to end: two points, or more where it runs over something.
-    pub springs: Vec<Vec<Vector3<f64>>>,
+    pub springs: Vec<SpringMark>,
     pub cables: Vec<CableMark>,
     pub loads: Vec<LoadMark>,
+    pub masses: Vec<MassMark>,
+    /// Global, m/s².
+    pub gravity: Vector3<f64>,
 }
 
 impl Scene {
@@ -137,24 +156,23 @@ impl Scene {
                 add_arm(model, solution, &mut bodies, place.mount, &Pose::translation(place.point));
             }
         }
-        Self {
+        let mut scene = Self {
             beams: beams.chain(tubes).collect(),
             foundations: foundations(model, solution),
             bodies,
             supports,
             joints,
-            outlines: outlines(model, solution),
-            springs: solution
-                .springs
-                .iter()
-                .map(|spring| match spring.course.len() {
-                    0 => spring.ends.to_vec(),
-                    _ => spring.course.clone(),
-                })
-                .collect(),
+            outlines: Vec::new(),
+            springs: springs(model, solution),
             cables: cables(model, solution),
             loads: loads(model, solution),
-        }
+            masses: masses(model, solution),
+            gravity: model.gravity,
+        };
+        // What has no end is cut to the size of the others.
+        let [low, high] = scene.bounds();
+        scene.outlines = outlines(model, solution, (high - low).norm());
+        scene
     }
 
     /// The smallest box around everything; the origin when there is nothing.
@@ -168,7 +186,12 @@ impl Scene {
             let arms = body.arms.iter().flat_map(|arm| [arm.initial, arm.deformed]);
             [body.initial, body.deformed].into_iter().chain(arms)
         });
-        let marks = self.springs.iter().flatten().copied().chain(self.joints.iter().map(|joint| joint.point));
+        let marks = self
+            .springs
+            .iter()
+            .flat_map(|spring| &spring.course)
+            .copied()
+            .chain(self.joints.iter().map(|joint| joint.point));
         let marks = marks.chain(self.cables.iter().flat_map(|cable| &cable.course).copied());
         let outlines =
             self.outlines.iter().flat_map(|outline| outline.initial.iter().chain(&outline.deformed));
@@ -314,8 +337,36 @@ fn cables(model: &Model, solution: &Solution) -> Vec<CableMark> {
     let cables = model.cables.iter().zip(&solution.cables);
     cables
         .map(|(cable, result)| CableMark {
+            name: cable.name.clone(),
             course: result.course.clone(),
             guides: cable.route.iter().filter_map(place).collect(),
+        })
+        .collect()
+}
+
+fn masses(model: &Model, solution: &Solution) -> Vec<MassMark> {
+    let on_beams = model.masses.iter().filter_map(|mass| {
+        let point = sample_at(solution, mass.point)?.pose.position;
+        Some(MassMark { name: mass.name.clone(), point, mass: mass.mass })
+    });
+    let bodies = model.bodies.iter().zip(&solution.bodies).filter(|(body, _)| body.mass > 0.0);
+    let bodies = bodies.map(|(body, pose)| MassMark {
+        name: String::new(),
+        point: pose.point(&body.center_of_mass),
+        mass: body.mass,
+    });
+    on_beams.chain(bodies).collect()
+}
+
+fn springs(model: &Model, solution: &Solution) -> Vec<SpringMark> {
+    let springs = model.springs.iter().zip(&solution.springs);
+    springs
+        .map(|(spring, result)| SpringMark {
+            name: spring.name.clone(),
+            course: match result.course.len() {
+                0 => result.ends.to_vec(),
+                _ => result.course.clone(),
+            },
         })
         .collect()
 }
@@ -340,6 +391,7 @@ fn loads(model: &Model, solution: &Solution) -> Vec<LoadMark> {
             point: pose.position,
             force: turned(unit(load.force)),
             moment: turned(unit(load.moment)),
+            sizes: [load.force, load.moment].map(|vector| solution.load_fraction * vector.norm()),
         });
     }
     for (tubes, result) in model.tubes.iter().zip(&solution.tubes) {
@@ -347,7 +399,8 @@ fn loads(model: &Model, solution: &Solution) -> Vec<LoadMark> {
         if let Some(tip) = result.samples.last()
             && (force != Vector3::zeros() || moment != Vector3::zeros())
         {
-            marks.push(LoadMark { point: tip.pose.position, force, moment });
+            let sizes = [tubes.force, tubes.moment].map(|vector| solution.load_fraction * vector.norm());
+            marks.push(LoadMark { point: tip.pose.position, force, moment, sizes });
         }
     }
     marks

@@ -3,6 +3,7 @@
 use super::axis::{Axis, shown};
 use super::canvas::{Canvas, Style};
 use super::diagram::{Mark, title};
+use super::gradient::{BAR, draw_bar, gradient};
 use super::layout::{LEGEND_LINE, Panel, Sheet};
 use super::scene::{Knot, Scene};
 use super::{COLOURS, FAINT, INK, LONG_NAME, draw_axes, marks, pieces, shortened, subtitle};
@@ -13,22 +14,10 @@ use flexura_spatial::{Pose, Twist, Vector3, exp};
 
 /// Shapes between the special ones that are drawn at most.
 const MOST: usize = 40;
-/// From the first to the last value of the parameter; dark to light, and told apart without colours too.
-const GRADIENT: [[f64; 3]; 5] = [
-    [68.0, 1.0, 84.0],
-    [65.0, 68.0, 135.0],
-    [42.0, 120.0, 142.0],
-    [34.0, 168.0, 132.0],
-    [122.0, 196.0, 76.0],
-];
-/// Height of the bar of colours, px.
-const BAR: f64 = 180.0;
 /// The largest displacement of a mode, as a part of the mechanism's size.
 const AMPLITUDE: f64 = 0.12;
 /// Most by which a curve turns between two knots, rad.
 const TURN: f64 = 0.3;
-/// Extents below this part of the largest are none.
-const FLAT: f64 = 1e-4;
 
 /// A state of the path as it is drawn.
 struct State {
@@ -52,8 +41,15 @@ pub fn shapes_svg(view: &TraceView<'_>) -> String {
     if states.iter().any(|state| state.is_unstable) {
         entries.push(Entry::Unstable);
     }
+    if let Some(first) = states.first() {
+        let strings = [
+            (!first.scene.springs.is_empty(), Entry::Spring),
+            (!first.scene.cables.is_empty(), Entry::Cable),
+        ];
+        entries.extend(strings.into_iter().filter(|(is_there, _)| *is_there).map(|(_, entry)| entry));
+    }
     let bounds = joined(states.iter().map(|state| &state.scene));
-    let sheet = sheet(bounds, BAR + 40.0 + LEGEND_LINE * entries.len() as f64);
+    let sheet = Sheet::of(bounds, BAR + 40.0 + LEGEND_LINE * entries.len() as f64);
     let mut canvas = Canvas::new(sheet.width, sheet.height);
     let shown = shortened(name, LONG_NAME);
     let text = format!("shapes as {shown} changes; displacements to scale");
@@ -76,6 +72,9 @@ pub fn shapes_svg(view: &TraceView<'_>) -> String {
             draw_state(&mut canvas, panel, &state.scene, &colour(state.parameter), 2.2, "");
         }
         draw_ground(&mut canvas, panel, &first.scene);
+        if let Some(last) = states.last() {
+            marks::names_of_strings(&mut canvas, panel, &last.scene);
+        }
         for state in &states {
             if let (Some(mark), Some(at)) = (state.mark, most_moved(panel, &state.scene)) {
                 mark.draw(&mut canvas, at);
@@ -137,7 +136,7 @@ pub fn modes_svg(model: &Model, buckling: &Buckling) -> String {
         Entry::Mode(i, format!("{}: {}{remark}", i + 1, shown(mode.value, unit, 5)))
     }));
     let bounds = joined(scenes.iter().chain([&base]));
-    let sheet = sheet(bounds, LEGEND_LINE * (entries.len() + 1) as f64);
+    let sheet = Sheet::of(bounds, LEGEND_LINE * (entries.len() + 1) as f64);
     let mut canvas = Canvas::new(sheet.width, sheet.height);
     let what = match buckling.parameter {
         Some(_) => format!("critical values of {}", shortened(name, LONG_NAME)),
@@ -187,19 +186,6 @@ fn joined<'a>(scenes: impl Iterator<Item = &'a Scene>) -> [Vector3<f64>; 2] {
     bounds.reduce(|[a, b], [low, high]| [a.inf(&low), b.sup(&high)]).unwrap_or([Vector3::zeros(); 2])
 }
 
-/// One view of a mechanism that stays in a plane, three of another.
-fn sheet(bounds: [Vector3<f64>; 2], legend_height: f64) -> Sheet {
-    let extent = bounds[1] - bounds[0];
-    let is_flat = |axis: usize| extent[axis] <= FLAT * extent.max();
-    // Of a straight one, the view from the front.
-    match [1, 2, 0].into_iter().find(|axis| is_flat(*axis)) {
-        Some(1) => Sheet::single(bounds, [0, 2], legend_height),
-        Some(2) => Sheet::single(bounds, [0, 1], legend_height),
-        Some(_) => Sheet::single(bounds, [1, 2], legend_height),
-        None => Sheet::new(bounds, (legend_height / LEGEND_LINE).ceil() as usize),
-    }
-}
-
 fn head(canvas: &mut Canvas, sheet: &Sheet, model: &Model, status: Status, text: &str) {
     let room = (sheet.width - sheet.left) / 9.5;
     canvas.heading([sheet.left, 26.0], &shortened(title(model), room as usize), 16.0);
@@ -228,7 +214,7 @@ fn draw_state(
 ) {
     let style = |width: f64| Style::line(colour.to_owned(), width).dashed(dashes);
     for spring in &scene.springs {
-        canvas.polyline(spring.iter().map(|point| panel.point(point)), &style(0.4 * width));
+        canvas.polyline(spring.course.iter().map(|point| panel.point(point)), &style(0.4 * width));
     }
     for cable in &scene.cables {
         canvas.polyline(cable.course.iter().map(|point| panel.point(point)), &style(0.5 * width));
@@ -294,47 +280,13 @@ fn most_moved(panel: &Panel, scene: &Scene) -> Option<[f64; 2]> {
     Some(panel.point(&moved.or_else(middle)?))
 }
 
-/// The colour at a place between 0 and 1.
-fn gradient(place: f64) -> String {
-    let last = GRADIENT.len() - 1;
-    let place = place.clamp(0.0, 1.0) * last as f64;
-    let below = (place.floor() as usize).min(last - 1);
-    let part = place - below as f64;
-    let [r, g, b] = [0, 1, 2].map(|k| {
-        let mixed = GRADIENT[below][k] * (1.0 - part) + GRADIENT[below + 1][k] * part;
-        mixed.round() as u8
-    });
-    format!("#{r:02x}{g:02x}{b:02x}")
-}
-
-/// The bar of colours with the parameter beside it.
-fn draw_bar(canvas: &mut Canvas, [x, y]: [f64; 2], scale: &Axis, [low, high]: [f64; 2]) {
-    const STRIPES: usize = 48;
-    let row = |value: f64| y + BAR * (1.0 - scale.place(value));
-    let (bottom, top) = (row(low), row(high));
-    let height = (bottom - top) / STRIPES as f64;
-    for i in 0..STRIPES {
-        let colour = gradient((i as f64 + 0.5) / STRIPES as f64);
-        // A little more than its share, so that no seam shows.
-        canvas.raw(&format!(
-            "<rect x=\"{x:.1}\" y=\"{:.2}\" width=\"14\" height=\"{:.2}\" fill=\"{colour}\"/>",
-            bottom - (i + 1) as f64 * height,
-            height + 0.4
-        ));
-    }
-    let ticks = scale.ticks();
-    for (value, label) in ticks.iter().filter(|(value, _)| (low..=high).contains(value)) {
-        canvas.line([x + 14.0, row(*value)], [x + 18.0, row(*value)], &Style::line("#444444", 0.8));
-        canvas.text([x + 22.0, row(*value) + 3.5], label, "start", 10.5, "#444444");
-    }
-    canvas.text([x, y + BAR + 16.0], &scale.label, "start", 11.5, INK);
-}
-
 /// What the legend explains.
 enum Entry {
     Rest,
     Mark(Mark),
     Unstable,
+    Spring,
+    Cable,
     Base(String),
     Mode(usize, String),
 }
@@ -357,6 +309,14 @@ fn draw_legend(canvas: &mut Canvas, origin: [f64; 2], entries: &[Entry]) {
             Entry::Unstable => {
                 canvas.line(left, right, &Style::line(gradient(0.6), 1.5).dashed("6 4"));
                 "unstable"
+            }
+            Entry::Spring => {
+                canvas.line(left, right, &Style::line(gradient(0.6), 0.6));
+                "spring"
+            }
+            Entry::Cable => {
+                canvas.line(left, right, &Style::line(gradient(0.6), 0.8));
+                "cable"
             }
             Entry::Base(label) => {
                 canvas.line(left, right, &Style::line(FAINT, 3.0));

@@ -9,12 +9,15 @@ use crate::document::{
     all_finite, error_estimate, finite, output_reasons, outputs, parameters, reasons_by_name, residual,
     state_document, work,
 };
+use crate::scene::{SceneDocument, loads, scene, scene_beside};
+use crate::thin::shape_of;
 use crate::wire::Value;
 use crate::{Named, OutputError};
 use flexura_model::Model;
 use flexura_post::{Evaluation, evaluate_each};
 use flexura_solution::{
-    Branch, BranchEnd, BranchOrigin, Buckling, CriticalCurve, Direction, PointKind, Status, TracePoint,
+    Branch, BranchEnd, BranchOrigin, Buckling, CriticalCurve, Direction, PointKind, Solution, Status,
+    TracePoint,
 };
 
 /// The result document of a trace.
@@ -23,7 +26,12 @@ use flexura_solution::{
 /// [`OutputError::NotFinite`] names the first number that is NaN or infinite.
 pub fn trace_document(view: &TraceView<'_>) -> Result<TraceDocument, OutputError> {
     let trace = view.trace;
-    let branches = trace.branches.iter().enumerate().map(|(i, branch)| branch_document(view, i, branch));
+    let first = First::of(view)?;
+    let first = first.as_ref();
+    let branches = trace.branches.iter().enumerate();
+    let branches =
+        branches.map(|(i, branch)| branch_document(view, first, i, branch)).collect::<Result<_, _>>()?;
+    let critical = trace.critical.as_ref().map(|curve| critical_document(view, first, curve)).transpose()?;
     let counted = trace.work;
     Ok(TraceDocument {
         flexura: env!("CARGO_PKG_VERSION").to_owned(),
@@ -36,8 +44,8 @@ pub fn trace_document(view: &TraceView<'_>) -> Result<TraceDocument, OutputError
         range: all_finite(trace.range, || "range".into())?,
         parameters: parameters(view.model)?,
         stability_reason: trace.stability_reason.clone(),
-        branches: branches.collect::<Result<_, _>>()?,
-        critical: trace.critical.as_ref().map(|curve| critical_document(view, curve)).transpose()?,
+        branches,
+        critical,
         work: TraceWorkDocument {
             points: counted.points,
             refused: counted.refused,
@@ -46,11 +54,36 @@ pub fn trace_document(view: &TraceView<'_>) -> Result<TraceDocument, OutputError
             residuals: counted.residuals,
             inertias: counted.inertias,
         },
+        scene: first.map(|first| first.scene.clone()),
     })
+}
+
+/// The first state that is kept: what is drawn of others is told beside it.
+struct First<'v> {
+    model: &'v Model,
+    scene: SceneDocument,
+}
+
+impl<'v> First<'v> {
+    fn of(view: &'v TraceView<'_>) -> Result<Option<Self>, OutputError> {
+        let Some((model, solution)) = first_state(view) else { return Ok(None) };
+        Ok(Some(Self { model, scene: scene(model, solution)? }))
+    }
+}
+
+/// The first state that is kept, with its model.
+fn first_state<'v>(view: &'v TraceView<'_>) -> Option<(&'v Model, &'v Solution)> {
+    let branches = view.trace.branches.iter().enumerate();
+    let mut states = branches.flat_map(|(b, branch)| {
+        let points = branch.points.iter().enumerate();
+        points.filter_map(move |(p, point)| Some((view.model_at(b, p), point.solution.as_deref()?)))
+    });
+    states.next()
 }
 
 fn branch_document(
     view: &TraceView<'_>,
+    first: Option<&First<'_>>,
     number: usize,
     branch: &Branch,
 ) -> Result<BranchDocument, OutputError> {
@@ -60,7 +93,7 @@ fn branch_document(
     };
     let points = branch.points.iter().enumerate().map(|(i, point)| {
         let path = format!("branches[{number}].points[{i}]");
-        point_document(view, &path, point, view.model_at(number, i))
+        point_document(view, first, &path, point, view.model_at(number, i))
     });
     Ok(BranchDocument {
         origin: branch.origin.word(),
@@ -72,10 +105,14 @@ fn branch_document(
     })
 }
 
-fn critical_document(view: &TraceView<'_>, curve: &CriticalCurve) -> Result<CriticalDocument, OutputError> {
+fn critical_document(
+    view: &TraceView<'_>,
+    first: Option<&First<'_>>,
+    curve: &CriticalCurve,
+) -> Result<CriticalDocument, OutputError> {
     let points = curve.points.iter().enumerate().map(|(i, (value, point))| {
         let path = format!("critical.points[{i}]");
-        let mut document = point_document(view, &path, point, view.critical_model(i))?;
+        let mut document = point_document(view, first, &path, point, view.critical_model(i))?;
         document.second_parameter = Some(finite(*value, || format!("{path}.second_parameter"))?);
         Ok::<_, OutputError>(document)
     });
@@ -99,6 +136,7 @@ fn end_reasons(ends: &[BranchEnd; 2]) -> [Option<String>; 2] {
 
 fn point_document(
     view: &TraceView<'_>,
+    first: Option<&First<'_>>,
     path: &str,
     point: &TracePoint,
     model: &Model,
@@ -109,6 +147,15 @@ fn point_document(
         .solution
         .as_ref()
         .map(|solution| state_document(model, solution, &evaluate_each(model, solution)));
+    let shape = point.shape.as_ref().map(|shape| shape_of(model, shape));
+    let shown = point.solution.as_deref().or(point.shape.as_deref());
+    let (scene, loads) = match (first, shown) {
+        (Some(first), Some(shown)) => match scene_beside(&first.scene, model, shown).map_err(within)? {
+            Some(scene) => (Some(scene), Named::default()),
+            None => (None, loads(first.model, model).map_err(within)?),
+        },
+        _ => (None, Named::default()),
+    };
     let directions = point.directions.iter().map(|direction| shape_document(model, direction));
     Ok(PointDocument {
         second_parameter: None,
@@ -128,6 +175,9 @@ fn point_document(
             .then(|| finite(point.error_estimate, || format!("{path}.error_estimate")))
             .transpose()?,
         state: state.transpose().map_err(within)?,
+        shape: shape.transpose().map_err(within)?,
+        scene,
+        loads,
         directions: directions.collect::<Result<_, _>>().map_err(within)?,
     })
 }
@@ -212,6 +262,7 @@ pub fn buckling_document(
         unstable_directions: solution.unstable_directions,
         stability_reason: solution.stability_reason.clone(),
         work: work(&solution.work),
+        scene: scene(model, solution)?,
     })
 }
 

@@ -1,7 +1,7 @@
 //! The shape of the result documents of a trace and of buckling, field for field. SI units.
 
-use crate::Named;
 use crate::wire::{StateDocument, Value, WorkDocument};
+use crate::{LoadDocument, Named, SceneDocument};
 use serde::Serialize;
 
 /// The result document of a trace.
@@ -36,6 +36,9 @@ pub struct TraceDocument {
     pub critical: Option<CriticalDocument>,
     /// Work counters.
     pub work: TraceWorkDocument,
+    /// What a picture needs besides, at the first state that is kept; none where none is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scene: Option<SceneDocument>,
 }
 
 /// A smooth curve of equilibria.
@@ -96,6 +99,15 @@ pub struct PointDocument {
     /// The whole state, where it is kept.
     #[serde(flatten)]
     pub state: Option<StateDocument>,
+    /// Where the whole state is not kept: the state with fewer samples, rounded, for pictures.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shape: Option<StateDocument>,
+    /// Where the parameter changes more than loads: what a picture of this state needs besides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scene: Option<SceneDocument>,
+    /// Loads that are not as in the scene, of a point with a state or a shape.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub loads: Named<LoadDocument>,
     /// At folds and branch points: in which directions the mechanism gives way without resistance.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub directions: Vec<ShapeDocument>,
@@ -210,6 +222,8 @@ pub struct BucklingDocument {
     pub stability_reason: Option<String>,
     /// Work counters of the equilibrium.
     pub work: WorkDocument,
+    /// What a picture needs besides.
+    pub scene: SceneDocument,
 }
 
 /// A critical load and how the mechanism gives way under it.

@@ -180,6 +180,7 @@ pub fn point(parameter: f64, w: f64, arc: f64, kind: PointKind, unstable: Option
         stable: unstable.map(|count| count == 0),
         unstable_directions: unstable,
         solution: is_kept.then(|| Box::new(solution)),
+        shape: None,
         directions: if is_critical { vec![direction()] } else { Vec::new() },
         kind,
     }

@@ -55,7 +55,7 @@ pub fn trace(
     }));
     let samples =
         options.samples.min((MOST_SAMPLES / model.beams.len().max(1)).clamp(FEWEST_SAMPLES, KEPT_SAMPLES));
-    let reader = Reader { watched, samples };
+    let reader = Reader { watched, samples, shapes: options.shapes.min(samples), shaped: Default::default() };
     let start = family.model(&[(study.parameter, study.start)])?;
     let mut prepared = Prepared::new(&start)?;
     prepared.heed(&options.interrupt);

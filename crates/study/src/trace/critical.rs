@@ -125,7 +125,7 @@ fn report(
     let _ = walker.point().restore(traced);
     let [first, second] = walker.point().parameters;
     let reading = follower.reader.read(traced);
-    let point = TracePoint {
+    let mut point = TracePoint {
         parameter: traced.axes[0].value(first),
         arc: 0.0,
         kind: kind.clone(),
@@ -135,8 +135,10 @@ fn report(
         stable: None,
         unstable_directions: None,
         solution: None,
+        shape: None,
         directions: Vec::new(),
     };
+    follower.reader.add_shape(traced, &mut point);
     // The ends of the range are met exactly.
     let second = if (second - second.round()).abs() <= 1e-11 { second.round() } else { second };
     (traced.axes[1].value(second), point)

@@ -130,6 +130,7 @@ impl Follower<'_> {
                 self.keep(traced, walker, &mut point);
             }
             First::Beyond(reading) => {
+                self.reader.add_shape(traced, &mut point);
                 // What lies between the branch point and the first point beyond it.
                 let passed = self.watched(traced, walker, &reading, &before, 1.0);
                 for (which, place) in passed {
@@ -257,6 +258,8 @@ impl Follower<'_> {
             if since_kept == KEPT {
                 since_kept = 0;
                 self.keep(traced, walker, &mut point);
+            } else {
+                self.reader.add_shape(traced, &mut point);
             }
             leg.points.push(point);
             self.tell(leg);
@@ -495,6 +498,7 @@ impl Follower<'_> {
             stable: index.map(|count| count == 0),
             unstable_directions: index,
             solution: None,
+            shape: None,
             directions: Vec::new(),
         };
         self.keep(traced, walker, &mut point);
@@ -550,8 +554,9 @@ impl Follower<'_> {
         if let Ok(place) = walker.between(traced, part) {
             let reading = self.read(traced, walker);
             let value = traced.axes[0].value(place.point.parameters[0]);
-            leg.points
-                .push(TracePoint { arc: walker.arc_at(part), ..regular(value, &place, reading, error) });
+            let mut point = TracePoint { arc: walker.arc_at(part), ..regular(value, &place, reading, error) };
+            self.reader.add_shape(traced, &mut point);
+            leg.points.push(point);
         }
     }
 

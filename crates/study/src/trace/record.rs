@@ -9,11 +9,16 @@ use flexura_nonlinear::System;
 use flexura_post::{OutputValue, Values};
 use flexura_solution::{Branch, Crossing, Direction, PointKind, Solution, TracePoint};
 use flexura_spatial::Twist;
+use std::cell::Cell;
 
 /// Samples of beams where only outputs are wanted.
 const FEW: usize = 2;
 /// Size of the step by which a direction is sampled.
 const SHIFT: f64 = 1e-5;
+
+/// A shape at every point up to so many sections, at every second beyond, at every third beyond twice as many, and so on: a
+/// document of a long path stays of a size that can be read.
+const SECTIONS: usize = 10_000;
 
 /// What is read off at every point.
 #[derive(Clone, Debug, Default)]
@@ -31,6 +36,10 @@ pub(crate) struct Reader {
     pub watched: Vec<Target>,
     /// Samples along each beam of a state that is kept.
     pub samples: usize,
+    /// Samples along each beam of a shape; zero for no shapes.
+    pub shapes: usize,
+    /// Sections of all shapes so far, and points since the last one.
+    pub shaped: Cell<(usize, usize)>,
 }
 
 impl Reader {
@@ -98,6 +107,19 @@ impl Reader {
             None => Some(traced.undecided.clone().unwrap_or_else(|| CRITICAL.to_string())),
         };
         solution
+    }
+
+    /// Adds the present state with few samples to its point, if it is its turn.
+    pub fn add_shape(&self, traced: &mut Traced<'_>, point: &mut TracePoint) {
+        let (sections, since) = self.shaped.get();
+        if self.shapes == 0 || since < sections / SECTIONS {
+            self.shaped.set((sections, since + 1));
+            return;
+        }
+        let shape = traced.prepared.problem.sampled(self.shapes, true, |_| true);
+        let own: usize = shape.beams.iter().map(|beam| beam.samples.len()).sum();
+        self.shaped.set((sections + own.max(1), 0));
+        point.shape = Some(Box::new(shape));
     }
 
     /// A small motion along a step of the state, sampled like a whole state.
@@ -178,6 +200,7 @@ pub(crate) fn regular(value: f64, place: &Place, reading: Reading, error: f64) -
         stable: place.index.map(|count| count == 0),
         unstable_directions: place.index,
         solution: None,
+        shape: None,
         directions: Vec::new(),
     }
 }

@@ -1,22 +1,27 @@
 //! `flexura sweep FILE --vary P=A:B:N`
 
+mod document;
+mod picture;
+mod table;
+
 use super::{file_failure, warn_about};
 use crate::answer::json;
 use crate::arguments::SweepArguments;
 use crate::failure::Failure;
 use crate::files::{self, Growing};
 use crate::progress::Counter;
+use crate::shown::Shown;
 use crate::{interrupt, screen};
-use flexura::model::{Model, visible};
+use document::SweepDocument;
+use flexura::model::visible;
 use flexura::modelfile::Document;
-use flexura::output::{Named, Value, csv_line};
-use flexura::post::{OutputResult, OutputValue};
+use flexura::output::sweep_svg;
 use flexura::solution::Status;
 use flexura::{Axis, Interrupt, Options, Sample, SampleStatus, Sweep};
-use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
+use table::Table;
 
 pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let overrides = &arguments.model.overrides;
@@ -27,7 +32,12 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         options.tolerance = tolerance;
     }
     let axes = arguments.vary.iter().map(|text| Axis::parse(&model, text)).collect::<Result<Vec<_>, _>>();
-    let sweep = axes.and_then(|axes| Sweep::new(&file, overrides, axes, &options)).map_err(Failure::Input)?;
+    let mut sweep =
+        axes.and_then(|axes| Sweep::new(&file, overrides, axes, &options)).map_err(Failure::Input)?;
+    let shown = Shown::new(&arguments.shown)?;
+    if shown.wants_page() || arguments.model.json {
+        sweep = sweep.with_shapes(model.beams.len());
+    }
     let table = Table::new(&model, sweep.axes());
     // Hours of work should not end at a folder that is not there.
     let rows = match arguments.output.as_deref() {
@@ -53,25 +63,34 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     counter.finish();
 
     let rows = rows.into_inner().unwrap_or_else(PoisonError::into_inner);
-    deliver(arguments, &table, &samples, rows)
+    deliver(arguments, &file, &table, &samples, (rows, &shown))
 }
 
 /// Writes the whole table, prints what is to be printed, and ends as the samples did.
 fn deliver(
     arguments: &SweepArguments,
+    file: &Document,
     table: &Table<'_>,
     samples: &[Sample],
-    rows: Rows,
+    (rows, shown): (Rows, &Shown),
 ) -> Result<(), Failure> {
     let path = arguments.output.as_deref();
     let whole = || samples.iter().fold(table.header(), |text, sample| text + &table.row(sample));
-    let unwritten = path.and_then(|path| files::replace(path, &whole()).err());
+    let unwritten = path.and_then(|path| files::replace(path, whole()).err());
     if unwritten.is_none() {
         rows.finish(samples, |sample| table.row(sample))?;
     }
-    if arguments.model.json {
-        screen::print_table(&json(&SweepDocument::new(table, samples))?)?;
-    } else if unwritten.is_some() {
+    let mut text = None;
+    if arguments.model.json || shown.wants_page() {
+        let document = SweepDocument::new(file, table, samples);
+        text = Some(json(&document.map_err(|error| Failure::Machine(error.to_string()))?)?);
+    }
+    if let (Some(text), true) = (&text, arguments.model.json) {
+        screen::print_table(text)?;
+    }
+    let picture = shown.wants_picture().then(|| sweep_svg(&picture::view(table, samples)));
+    let unwritten = unwritten.or(shown.write(text.as_deref(), picture.as_slice()).err());
+    if unwritten.is_some() && !arguments.model.json {
         // What has no room on the disk is shown nevertheless.
         screen::print_table(&whole())?;
     }
@@ -84,6 +103,9 @@ fn deliver(
     if let (Some(path), false) = (path, arguments.model.quiet) {
         let path = path.to_string_lossy();
         screen::note(&format!("wrote {} samples into {}", samples.len(), visible(&path)));
+    }
+    if !arguments.model.quiet {
+        shown.tell();
     }
     complaint(samples).map_or(Ok(()), Err)
 }
@@ -209,154 +231,4 @@ fn complaint(samples: &[Sample]) -> Option<Failure> {
 
 fn is_interrupted(sample: &Sample) -> bool {
     sample.status == SampleStatus::Solved(Status::Interrupted)
-}
-
-/// The table: varied parameters, status, what was found, outputs, stability, energy, error estimate, reason.
-struct Table<'a> {
-    model: &'a Model,
-    axes: &'a [Axis],
-    /// Warnings about the mechanism, which are said once and stand in no row.
-    known: Vec<String>,
-}
-
-impl<'a> Table<'a> {
-    fn new(model: &'a Model, axes: &'a [Axis]) -> Self {
-        let known = flexura::check(model).map(|census| census.warnings).unwrap_or_default();
-        Self { model, axes, known }
-    }
-
-    fn header(&self) -> String {
-        let headed = |name: &str, unit: &str| {
-            if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") }
-        };
-        let mut header: Vec<String> =
-            self.axes.iter().map(|axis| headed(&axis.parameter, &axis.typed_unit)).collect();
-        header.push("status".into());
-        for unknown in &self.model.unknowns {
-            let parameter = &self.model.parameters[unknown.parameter];
-            header.push(headed(&parameter.name, &parameter.unit));
-        }
-        for output in &self.model.outputs {
-            match output.formulas.len() {
-                3 => header
-                    .extend(["x", "y", "z"].map(|c| headed(&format!("{}.{c}", output.name), &output.unit))),
-                _ => header.push(headed(&output.name, &output.unit)),
-            }
-        }
-        let last = ["stable", "unstable_directions", "energy [J]", "error_estimate", "reason", "warnings"];
-        header.extend(last.map(str::to_owned));
-        csv_line(&header)
-    }
-
-    fn row(&self, sample: &Sample) -> String {
-        // Debug prints the shortest text that reads back as the same number.
-        let cell = |value: Option<f64>| {
-            value.filter(|value| value.is_finite()).map_or_else(String::new, |value| format!("{value:?}"))
-        };
-        let mut row: Vec<String> = sample.typed.iter().map(|value| cell(Some(*value))).collect();
-        row.push(sample.status.word().to_owned());
-        row.extend((0..self.model.unknowns.len()).map(|i| cell(sample.found.get(i).copied())));
-        for (i, output) in self.model.outputs.iter().enumerate() {
-            let value = sample.outputs.get(i).and_then(Option::as_ref).map(|result| result.value);
-            match value {
-                Some(OutputValue::Number(value)) => row.push(cell(Some(value))),
-                Some(OutputValue::Vector(values)) => row.extend(values.map(|value| cell(Some(value)))),
-                None => row.extend(output.formulas.iter().map(|_| String::new())),
-            }
-        }
-        let unstable = sample.unstable_directions;
-        row.push(unstable.map_or_else(String::new, |count| (count == 0).to_string()));
-        row.push(unstable.map_or_else(String::new, |count| count.to_string()));
-        row.extend([cell(sample.energy), cell(sample.error_estimate)]);
-        let reasons: Vec<&str> = match &sample.reason {
-            Some(reason) if sample.output_reasons.is_empty() => vec![reason],
-            _ => sample.output_reasons.iter().map(|(_, reason)| reason.as_str()).collect(),
-        };
-        row.push(reasons.join("; "));
-        row.push(self.own_warnings(sample).join("; "));
-        csv_line(&row)
-    }
-
-    /// The warnings that are a sample's own.
-    fn own_warnings<'s>(&self, sample: &'s Sample) -> Vec<&'s str> {
-        sample.warnings.iter().filter(|warning| !self.known.contains(warning)).map(String::as_str).collect()
-    }
-}
-
-#[derive(Serialize)]
-struct SweepDocument<'a> {
-    flexura: &'static str,
-    model: &'a str,
-    study: &'static str,
-    status: &'static str,
-    vary: Named<&'a [f64]>,
-    samples: Vec<SampleDocument<'a>>,
-}
-
-#[derive(Serialize)]
-struct SampleDocument<'a> {
-    parameters: Named<f64>,
-    status: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<&'a str>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    warnings: Vec<&'a str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    unknowns: Option<Named<f64>>,
-    outputs: Named<Option<Value>>,
-    #[serde(skip_serializing_if = "Named::is_empty")]
-    output_reasons: Named<&'a str>,
-    stable: Option<bool>,
-    unstable_directions: Option<usize>,
-    energy: Option<f64>,
-    error_estimate: Option<f64>,
-}
-
-impl<'a> SweepDocument<'a> {
-    fn new(table: &'a Table<'a>, samples: &'a [Sample]) -> Self {
-        let name = |axis: &Axis| axis.parameter.clone();
-        Self {
-            flexura: env!("CARGO_PKG_VERSION"),
-            model: &table.model.name,
-            study: "sweep",
-            status: match () {
-                () if samples.iter().any(is_interrupted) => "interrupted",
-                () if samples.iter().all(|sample| sample.status.is_converged()) => "converged",
-                () => "incomplete",
-            },
-            vary: Named(table.axes.iter().map(|axis| (name(axis), axis.values.as_slice())).collect()),
-            samples: samples.iter().map(|sample| SampleDocument::new(table, sample)).collect(),
-        }
-    }
-}
-
-impl<'a> SampleDocument<'a> {
-    fn new(table: &Table<'a>, sample: &'a Sample) -> Self {
-        let model = table.model;
-        let output_name = |position: usize| model.outputs[position].name.clone();
-        let value = |output: &OutputResult| match output.value {
-            OutputValue::Number(value) => Value::Number(value),
-            OutputValue::Vector(values) => Value::Vector(values),
-        };
-        let outputs = sample.outputs.iter().enumerate();
-        let names = table.axes.iter().map(|axis| axis.parameter.clone());
-        Self {
-            parameters: Named(names.zip(sample.values.iter().copied()).collect()),
-            status: sample.status.word(),
-            reason: sample.reason.as_deref(),
-            warnings: table.own_warnings(sample),
-            unknowns: (!sample.found.is_empty()).then(|| {
-                let names = model.unknowns.iter().map(|u| model.parameters[u.parameter].name.clone());
-                Named(names.zip(sample.found.iter().copied()).collect())
-            }),
-            outputs: Named(outputs.map(|(i, output)| (output_name(i), output.as_ref().map(value))).collect()),
-            output_reasons: Named(
-                sample.output_reasons.iter().map(|(i, reason)| (output_name(*i), reason.as_str())).collect(),
-            ),
-            stable: sample.unstable_directions.map(|count| count == 0),
-            unstable_directions: sample.unstable_directions,
-            energy: sample.energy,
-            error_estimate: sample.error_estimate,
-        }
-    }
 }

@@ -1,0 +1,46 @@
+//! `flexura view RESULT.json`
+
+use crate::arguments::ViewArguments;
+use crate::failure::Failure;
+use crate::{files, page, screen};
+use flexura::model::visible;
+use flexura::report;
+use std::fs;
+use std::path::Path;
+
+pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
+    let text = read(&arguments.result)?;
+    let page = report::page(&text).map_err(|error| {
+        Failure::Input(format!("{}: {error}", visible(&arguments.result.to_string_lossy())))
+    })?;
+    let path = arguments.output.clone().unwrap_or_else(|| arguments.result.with_extension("html"));
+    files::replace(&path, &page)?;
+    screen::note(&format!("wrote {}", visible(&path.to_string_lossy())));
+    if !arguments.no_open
+        && let Err(why) = page::open(&path)
+    {
+        screen::warn(&format!("no browser could be started ({why}); open the file yourself"));
+    }
+    Ok(())
+}
+
+fn read(path: &Path) -> Result<String, Failure> {
+    if path.is_dir() {
+        let inside = path.join("result.json");
+        let hint = if inside.is_file() {
+            format!("; name the result in it: {}", visible(&inside.to_string_lossy()))
+        } else {
+            "; name a result.json".to_owned()
+        };
+        return Err(Failure::Input(format!("{} is a folder{hint}", visible(&path.to_string_lossy()))));
+    }
+    let bytes = fs::read(path).map_err(|error| {
+        Failure::Machine(format!("cannot read {}: {error}", visible(&path.to_string_lossy())))
+    })?;
+    String::from_utf8(bytes).map_err(|_| {
+        Failure::Input(format!(
+            "{} is no text; name the result.json of a study",
+            visible(&path.to_string_lossy())
+        ))
+    })
+}
