@@ -302,3 +302,18 @@ fn a_path_that_comes_to_the_end_of_a_bowl_says_so() {
     let end = format!("{:?}", branch.ends);
     assert!(end.contains("joint.roll") && end.contains("boundaries ends"), "{end}");
 }
+
+/// A travel in steps costs all of them at every place: as the step goes to nothing there is an end, and it is told.
+#[test]
+fn a_travel_in_steps_that_go_to_nothing_ends_and_says_where() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/explicit_recipe.toml");
+    let document = flexura::modelfile::Document::read(file).unwrap();
+    let rate = [("rate".to_string(), "1e-7 deg/s".to_string())];
+    let refused = document.model(&rate).map(|model| flexura::Prepared::new(&model).map(|_| ()));
+    let said = match refused {
+        Err(report) => report.to_string(),
+        Ok(Err(error)) => error.message,
+        Ok(Ok(())) => String::new(),
+    };
+    assert!(said.contains("beyond the end of a boundary or of the slide law"), "{said}");
+}

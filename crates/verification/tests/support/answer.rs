@@ -1,6 +1,7 @@
 //! What a solve says, in a form that can be turned, scaled, read backwards and compared.
 
 use super::transform::about_face;
+use flexura_expression::Formula;
 use flexura_model::{At, BeamId, Model, Output, Probe, ProbeTarget, Quantity};
 use flexura_spatial::{Pose, Wrench};
 use flexura_testkit::{assert_close, assert_close_vec};
@@ -127,9 +128,9 @@ pub fn ask_for(model: &mut Model, beam: usize, fractions: &[f64]) {
         component: 0,
     });
     model.outputs.push(Output {
-        name: "samples".to_string(),
+        name: format!("samples-{}", model.outputs.len()),
         unit: "m".to_string(),
-        formulas: Vec::new(),
+        formulas: vec![Formula::slot(0)],
         probes: probes.collect(),
     });
 }

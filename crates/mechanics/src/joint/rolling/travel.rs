@@ -9,6 +9,9 @@ use flexura_expression::Function;
 use flexura_geometry::FunctionSpline;
 use flexura_model::{RollingCoordinate, Slide};
 
+/// Steps of a travel in steps to either side: each place costs all steps that lead to it.
+const MOST_STEPPED: f64 = 2e3;
+
 /// A value with its first two derivatives by the coordinate.
 pub(super) type Jet = [f64; 3];
 
@@ -117,6 +120,7 @@ impl Slip {
     pub fn range(&self) -> Option<[f64; 2]> {
         match self {
             Slip::Relative { slide: Offset::Spline(spline), .. } => Some(spline.range()),
+            Slip::Stepped { step } => Some([-MOST_STEPPED * step, MOST_STEPPED * step]),
             _ => None,
         }
     }
