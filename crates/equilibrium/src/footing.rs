@@ -241,7 +241,7 @@ impl Equilibrium {
         if self.residual().is_err() {
             return false;
         }
-        let most = BOUNDLESS * (1.0 + self.given_force());
+        let most = BOUNDLESS * (1.0 + self.given_force);
         (0..self.lowered.spans.len()).any(|index| {
             let law = &self.lowered.beams[self.lowered.spans[index].beam];
             let force = self.courses[index].most.force;
@@ -251,8 +251,8 @@ impl Equilibrium {
         })
     }
 
-    /// The sum of all loads, in EI/L² of the softest beam: what forces may be expected to be.
-    pub fn given_force(&self) -> f64 {
+    /// Of what stands in `courses` before anything is raised, and of the nodes.
+    pub(crate) fn sum_of_loads(&self) -> f64 {
         let size = |load: &flexura_mechanics::load::PointLoad| {
             load.dead.force.norm()
                 + load.follower.force.norm()
@@ -260,8 +260,7 @@ impl Equilibrium {
                 + load.follower.moment.norm()
         };
         let nodes = self.lowered.nodes.iter().flat_map(|node| &node.loads).map(|(_, load, _)| size(load));
-        // What is expected of forces rises with them.
-        let spans = self.lowered.spans.iter().map(|span| self.expected_course(span).most);
+        let spans = self.courses.iter().map(|course| course.most);
         let spans = spans.map(|most| most.force + most.moment + most.tendons);
         let unit = self.lowered.spans.iter().map(|span| self.lowered.beams[span.beam].wrench_unit[0]);
         (nodes.sum::<f64>() + spans.sum::<f64>()) / unit.fold(f64::INFINITY, f64::min).min(1.0)

@@ -52,6 +52,7 @@ impl Equilibrium {
             .collect();
         self.courses = self.lowered.spans.iter().map(|span| self.expected_course(span)).collect();
         self.expected.clone_from(&self.courses);
+        self.given_force = self.sum_of_loads();
         // Where a law varies, segments ended where an earlier state had it.
         let even = |span: &Span| span.is_even(&self.lowered.beams[span.beam]);
         let fits =
@@ -92,7 +93,7 @@ impl Equilibrium {
     }
 
     /// What the given loads lead one to expect along a span.
-    pub(crate) fn expected_course(&self, span: &Span) -> Course {
+    fn expected_course(&self, span: &Span) -> Course {
         let mut level = Level::default();
         let law = &self.lowered.beams[span.beam];
         for j in &span.jumps {

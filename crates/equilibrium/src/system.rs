@@ -49,6 +49,8 @@ pub struct Equilibrium {
     /// How hard the spans are loaded now, and what is to be expected at the full load.
     pub(crate) courses: Vec<Course>,
     pub(crate) expected: Vec<Course>,
+    /// The sum of all loads, in EI/L² of the softest beam: what forces may be expected to be.
+    pub(crate) given_force: f64,
     /// What was seen of the laws of the spans.
     pub(crate) looks: Vec<Looks>,
     pub(crate) weights: Vec<f64>,
@@ -132,6 +134,7 @@ impl Equilibrium {
             ends: Vec::new(),
             courses: Vec::new(),
             expected: Vec::new(),
+            given_force: 0.0,
             looks: vec![Looks::default(); lowered.spans.len()],
             weights: Vec::new(),
             scratch: Vec::new(),
