@@ -212,7 +212,7 @@ fn sum(products: &[(Vec<usize>, Vec<f64>)], at: &[f64]) -> Vec<f64> {
     sum
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 

@@ -3,6 +3,7 @@
 //! The matrix G = (Cᵀ J⁻¹ B)⁻¹ with fixed B and C of k columns is a smooth function along the path and vanishes where J
 //! loses k ranks. It is found at points around the place, never at it, and its zero by a polynomial through them.
 
+use crate::algebraic::dot;
 use crate::corrector::{Limits, Miss, between, correct};
 use crate::locate::{Crossing, Special, Start};
 use crate::problem::{Point, Problem, Tangent};
@@ -155,24 +156,20 @@ pub(crate) fn heard<S: Liftable>(system: &mut S, kernel: &[Vec<f64>]) -> Vec<usi
     }
     let mut chosen = Vec::new();
     for _ in kernel {
-        let Some(best) =
-            (0..shares.len()).max_by(|a, b| square(&shares[*a].1).total_cmp(&square(&shares[*b].1)))
+        let size = |share: &[f64]| dot(share, share);
+        let Some(best) = (0..shares.len()).max_by(|a, b| size(&shares[*a].1).total_cmp(&size(&shares[*b].1)))
         else {
             break;
         };
         let (row, share) = shares.swap_remove(best);
-        let length = square(&share);
+        let length = size(&share);
         for (_, other) in &mut shares {
-            let along = other.iter().zip(&share).map(|(o, s)| o * s).sum::<f64>() / length;
+            let along = dot(other, &share) / length;
             other.iter_mut().zip(&share).for_each(|(o, s)| *o -= along * s);
         }
         chosen.push(row);
     }
     chosen
-}
-
-fn square(a: &[f64]) -> f64 {
-    a.iter().map(|a| a * a).sum()
 }
 
 /// The inverse of a small matrix given by columns, as one list. None where there is none.

@@ -3,7 +3,7 @@
 //! Differences make the equations that decide how they leave (`algebraic`), whose zeros are led to the branches themselves; of two halves
 //! that leave in opposite directions the tangent is the difference, in which what bends them is gone.
 
-use crate::algebraic::{Algebraic, Half};
+use crate::algebraic::{Algebraic, Half, dot};
 use crate::corrector::between;
 use crate::multiple::{heard, inverse};
 use crate::problem::{Point, Problem, Tangent, slope};
@@ -112,10 +112,6 @@ fn whole<S: Liftable>(system: &S, mut halves: Vec<Led>, path: &Tangent) -> Vec<L
         }
     }
     found
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// A small sphere of amplitudes around the point.
@@ -238,7 +234,8 @@ impl<'a> Sphere<'a> {
         None
     }
 
-    /// From a zero of the equations to the branch: its amplitudes and the way there.
+    /// From a zero of the equations to the branch: its amplitudes and the way there. Where other directions are nearly critical still,
+    /// corrections first grow, which the corrector of a path rightly takes for leaving it.
     fn lead<P: Problem>(&self, problem: &mut P, options: &WalkOptions, half: &Half) -> Option<Led> {
         self.go(problem, &half.amplitudes, half.parameter)?;
         let mut across = vec![0.0; problem.system().unknowns()];
