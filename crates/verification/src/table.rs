@@ -53,6 +53,18 @@ What differs by more than 1e-5 is wrong; what differs by more than ten times the
 estimate dishonest. `solve`, `sweep` and the end of a trace must agree, no trace may have a fold before a converged
 answer, and a stall that says a fold must lie at a fold of the trace. Every finding is written to `target/campaign`
 with its seed. A short campaign is a test (`crates/flexura-cli/tests/campaign.rs`).
+
+The seeds 1 to 300, by `cargo xtask campaign --seed 1 --count 300` on two cores in 283 s (2,668 runs of a verb):
+
+| | |
+|---|---|
+| verified answers | 286; the largest difference is below 1e-8 in all, below 1e-9 in 275, below 1e-12 in 117 |
+| wrong answers, panics | none |
+| memory | 255 MiB at most |
+| damaged files | 300, of which 267 are refused |
+| longer than 10 s | 14: twelve traces and a sweep of uneven beams, whose law is made anew at every value of the parameter, and one solve |
+| traces that end where a solve does not | 11: at corners of printed laws, or without a start where a mechanism stands under its load only |
+| other findings | 7: a state that broke off and has numbers that are none (2), a tolerance that double precision does not reach, a refusal, a slack band of 8 µN (1 each), solves that end before the path does (2) |
 ";
 
 /// No difference is printed as less: below lies round-off, which is not the same on every machine.
