@@ -82,6 +82,29 @@ impl Formula {
         renamed
     }
 
+    /// The formula that is `value` whatever the slots are.
+    pub fn constant(value: f64) -> Self {
+        Self { text: value.to_string(), program: Program::constant(value) }
+    }
+
+    /// Where the slots run along the line `slots + t rates`: the value at t = 0 and its first three derivatives by t, exact
+    /// (truncated Taylor arithmetic).
+    pub fn along(&self, slots: &[f64], rates: &[f64]) -> [f64; 4] {
+        let line: Vec<Jet> = slots.iter().zip(rates).map(|(value, rate)| Jet::line(*value, *rate)).collect();
+        self.program.run(Jet::constant(0.0), &line).derivatives()
+    }
+
+    /// The numbers of its slots, each as often as it stands there.
+    pub fn slots(&self) -> impl Iterator<Item = usize> + '_ {
+        self.program.slots()
+    }
+
+    /// Is it a polynomial of at most first degree in these slots, whatever the others are? What only happens to be straight
+    /// somewhere, as an absolute value is, does not count.
+    pub fn is_linear_in(&self, moving: &dyn Fn(usize) -> bool) -> bool {
+        self.program.degree(moving).is_some_and(|degree| degree <= 1)
+    }
+
     /// The value with the given slot values; NaN where a slot is missing.
     pub fn evaluate(&self, slots: &[f64]) -> f64 {
         self.program.run(0.0, slots)

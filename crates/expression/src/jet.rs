@@ -19,6 +19,10 @@ impl Jet {
         Self { c: [value, 1.0, 0.0, 0.0] }
     }
 
+    pub(crate) fn line(value: f64, rate: f64) -> Self {
+        Self { c: [value, rate, 0.0, 0.0] }
+    }
+
     pub(crate) fn derivatives(&self) -> [f64; 4] {
         [self.c[0], self.c[1], 2.0 * self.c[2], 6.0 * self.c[3]]
     }
@@ -99,6 +103,9 @@ impl Jet {
         let x = self.c[0];
         if exponent.is_constant() {
             let p = exponent.c[0];
+            if p.fract() == 0.0 && p.abs() <= 64.0 {
+                return self.whole_power(p as i32);
+            }
             // p (p-1) ... x^(p-k), where a zero factor wins over an infinite power.
             let term = |factor: f64, power: f64| if factor == 0.0 { 0.0 } else { factor * x.powf(power) };
             return self.compose([

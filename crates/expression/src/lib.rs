@@ -11,7 +11,9 @@
 //! `t`, `A`, `F`, `GJ`, which users want as names of their own parameters.
 
 mod bounds;
+mod degree;
 mod dimension;
+mod emit;
 mod error;
 mod expression;
 mod function;
@@ -28,6 +30,7 @@ mod split;
 mod unit;
 
 pub use dimension::{Dimension, Kind, Quantity};
+pub use emit::Open;
 pub use error::ExpressionError;
 pub use expression::{Expression, Reference, Segment};
 pub use function::{Formula, Function};

@@ -1,6 +1,7 @@
 //! Binding references, checking dimensions and compiling, in one walk over the postfix list.
 
 use crate::expression::{Binary, Call, Node};
+use crate::emit::{Emitter, Folded};
 use crate::program::{Instruction, Program, STACK};
 use crate::{Dimension, Expression, ExpressionError, Formula, Function, Kind, Quantity, Reference};
 use std::ops::Range;
@@ -46,19 +47,13 @@ impl Lowered {
     }
 }
 
-struct Operand {
-    kind: Kind,
-    /// Where its instructions begin.
-    begin: usize,
-}
-
 impl Expression {
     /// Binds every reference by `bind`, checks the dimensions and compiles.
     pub fn lower(
         &self,
         bind: &mut dyn FnMut(&Reference) -> Result<Binding, ExpressionError>,
     ) -> Result<Lowered, ExpressionError> {
-        let mut lowering = Lowering { code: Vec::new(), operands: Vec::new(), not_finite: None };
+        let mut lowering = Lowering::default();
         for item in &self.items {
             match &item.node {
                 Node::Number(value, kind) => lowering.push(Instruction::Constant(*value), *kind),
@@ -69,20 +64,20 @@ impl Expression {
                     Binding::Variable(kind) => lowering.push(Instruction::Variable, kind),
                     Binding::Slot(slot, kind) => lowering.push(Instruction::Slot(slot), kind),
                     Binding::Formula(formula, kind) => {
-                        lowering.operands.push(Operand { kind, begin: lowering.code.len() });
-                        lowering.code.extend(formula.program.instructions);
+                        lowering.kinds.push(kind);
+                        lowering.emitter.push_all(formula.program);
                     }
                 },
                 Node::Negate => {
-                    let kind = lowering.kinds(1)[0];
+                    let kind = lowering.last(1)[0];
                     lowering.apply(Instruction::Negate, 1, kind, &item.span);
                 }
                 Node::Binary(binary) => lowering.binary(*binary, &item.span)?,
                 Node::Call(call, count) => lowering.call(*call, *count, &item.span)?,
             }
         }
-        let kind = lowering.kinds(1)[0];
-        let program = Program { instructions: lowering.code };
+        let kind = lowering.last(1)[0];
+        let program: Program = lowering.emitter.program();
         if program.depth() > STACK {
             return Err(ExpressionError::new(
                 format!("the expression holds more than {STACK} unfinished operations at once"),
@@ -106,55 +101,44 @@ impl Expression {
     }
 }
 
+#[derive(Default)]
 struct Lowering {
-    code: Vec<Instruction>,
-    operands: Vec<Operand>,
+    emitter: Emitter,
+    /// What is known of each operand's dimension.
+    kinds: Vec<Kind>,
     not_finite: Option<Range<usize>>,
 }
 
 impl Lowering {
     fn push(&mut self, instruction: Instruction, kind: Kind) {
-        self.operands.push(Operand { kind, begin: self.code.len() });
-        self.code.push(instruction);
+        self.kinds.push(kind);
+        self.emitter.push(instruction);
     }
 
     /// Kinds of the last `count` operands. The parser's list is well formed, so there are as many.
-    fn kinds(&self, count: usize) -> Vec<Kind> {
-        let mut kinds: Vec<Kind> =
-            self.operands.iter().rev().take(count).map(|operand| operand.kind).collect();
+    fn last(&self, count: usize) -> Vec<Kind> {
+        let mut kinds: Vec<Kind> = self.kinds.iter().rev().take(count).copied().collect();
         kinds.resize(count, Kind::Plain);
         kinds.reverse();
         kinds
     }
 
-    /// Applies an instruction to the last `count` operands; folds it when they are constant.
-    fn apply(&mut self, instruction: Instruction, count: usize, kind: Kind, span: &Range<usize>) {
-        let keep = self.operands.len().saturating_sub(count);
-        let begin = self.operands.get(keep).map_or(0, |operand| operand.begin);
-        self.operands.truncate(keep);
-        self.operands.push(Operand { kind, begin });
-        let inputs = self.code.len() - begin;
-        let mut finite = true;
-        let constant = self.code[begin..].iter().all(|old| match old {
-            Instruction::Constant(value) => {
-                finite &= value.is_finite();
-                true
-            }
-            _ => false,
-        });
-        self.code.push(instruction);
-        if constant && inputs <= 2 {
-            let program = Program { instructions: self.code.split_off(begin) };
-            let value = program.run(0.0, &[]);
-            if finite && !value.is_finite() && self.not_finite.is_none() {
-                self.not_finite = Some(span.clone());
-            }
-            self.code.push(Instruction::Constant(value));
+    /// Puts the kind of the result in place of those of the `count` operands.
+    fn done(&mut self, folded: Folded, count: usize, kind: Kind, span: &Range<usize>) {
+        self.kinds.truncate(self.kinds.len().saturating_sub(count));
+        self.kinds.push(kind);
+        if folded == Folded::NotFinite && self.not_finite.is_none() {
+            self.not_finite = Some(span.clone());
         }
     }
 
+    fn apply(&mut self, instruction: Instruction, count: usize, kind: Kind, span: &Range<usize>) {
+        let folded = self.emitter.apply(instruction, count);
+        self.done(folded, count, kind, span);
+    }
+
     fn binary(&mut self, binary: Binary, span: &Range<usize>) -> Result<(), ExpressionError> {
-        let kinds = self.kinds(2);
+        let kinds = self.last(2);
         let (a, b) = (kinds[0], kinds[1]);
         let kind = match binary {
             Binary::Add => same(a, b).ok_or_else(|| unlike("add", b, "to", a, span))?,
@@ -176,12 +160,7 @@ impl Lowering {
                 span.clone(),
             ));
         }
-        let constant = match (self.operands.last(), self.code.last()) {
-            (Some(operand), Some(Instruction::Constant(value))) if operand.begin + 1 == self.code.len() => {
-                Some(*value)
-            }
-            _ => None,
-        };
+        let constant = self.emitter.constant();
         let kind = match base {
             Kind::Plain => Kind::Plain,
             Kind::Of(dimension) if dimension == Dimension::NUMBER => base,
@@ -201,20 +180,13 @@ impl Lowering {
                 Kind::Of(result)
             }
         };
-        match constant {
-            Some(power) if power.fract() == 0.0 && power.abs() <= 64.0 => {
-                self.code.pop();
-                let exponent = self.operands.pop();
-                debug_assert!(exponent.is_some());
-                self.apply(Instruction::WholePower(power as i32), 1, kind, span);
-            }
-            _ => self.apply(Instruction::Binary(Binary::Power), 2, kind, span),
-        }
+        let folded = self.emitter.power();
+        self.done(folded, 2, kind, span);
         Ok(())
     }
 
     fn call(&mut self, call: Call, count: usize, span: &Range<usize>) -> Result<(), ExpressionError> {
-        let kinds = self.kinds(count);
+        let kinds = self.last(count);
         let name = call.name();
         let number = |result: Kind| {
             let dimension = kinds[0].dimension();
@@ -274,20 +246,9 @@ impl Lowering {
                 }
             }
         };
-        if count == 1 {
-            self.apply(Instruction::Call1(call), 1, kind, span);
-        } else {
-            self.fold(call, count, kind, span);
-        }
+        let folded = self.emitter.call(call, count);
+        self.done(folded, count, kind, span);
         Ok(())
-    }
-
-    /// f(a, b, c) as f(f(a, b), c); all arguments are on the stack already, so from the right:
-    /// f(a, f(b, c)), which is the same for min, max and hypot.
-    fn fold(&mut self, call: Call, count: usize, kind: Kind, span: &Range<usize>) {
-        for _ in 1..count {
-            self.apply(Instruction::Call2(call), 2, kind, span);
-        }
     }
 }
 

@@ -46,6 +46,8 @@ impl Number for f64 {
             Binary::Subtract => a - b,
             Binary::Multiply => a * b,
             Binary::Divide => a / b,
+            // As a constant exponent has it that is known beforehand.
+            Binary::Power if b.fract() == 0.0 && b.abs() <= 64.0 => a.powi(b as i32),
             Binary::Power => a.powf(b),
         }
     }
@@ -119,6 +121,14 @@ impl Program {
         }
     }
 
+    /// The slots, each as often as it stands there.
+    pub(crate) fn slots(&self) -> impl Iterator<Item = usize> + '_ {
+        self.instructions.iter().filter_map(|instruction| match instruction {
+            Instruction::Slot(slot) => Some(*slot),
+            _ => None,
+        })
+    }
+
     /// The greatest number of values on the stack.
     pub(crate) fn depth(&self) -> usize {
         let mut now = 0usize;
@@ -134,7 +144,7 @@ impl Program {
         most
     }
 
-    pub(crate) fn run<T: Number>(&self, variable: T, slots: &[f64]) -> T {
+    pub(crate) fn run<T: Number>(&self, variable: T, slots: &[T]) -> T {
         if let [Instruction::Constant(value)] = self.instructions.as_slice() {
             return T::constant(*value);
         }
@@ -151,7 +161,7 @@ impl Program {
                     top += 1;
                 }
                 Instruction::Slot(slot) => {
-                    stack[top] = T::constant(slots.get(slot).copied().unwrap_or(f64::NAN));
+                    stack[top] = slots.get(slot).copied().unwrap_or(T::constant(f64::NAN));
                     top += 1;
                 }
                 Instruction::Negate => stack[top - 1] = stack[top - 1].negate(),

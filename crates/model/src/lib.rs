@@ -1,11 +1,13 @@
 //! The inert description of a compliant mechanism: what it is made of, not how it is solved.
 //!
 //! Every number is in SI units and radians. Things refer to each other by typed ids, which are positions
-//! in the model's lists. Nothing here computes; the laws live in `flexura-mechanics`.
+//! in the model's lists. A number may have a formula of parameters beside it, which is worked out here; the laws of
+//! mechanics live in `flexura-mechanics`.
 //!
 //! Absent on purpose: solver settings, results, text positions, anything that depends on a file format.
 
 mod beam;
+mod binding;
 mod body;
 mod cable;
 mod contact;
@@ -25,6 +27,7 @@ mod tubes;
 mod validate;
 
 pub use beam::{Beam, BeamTheory, Curve, Distributed, End, LoadAxes, SectionFrame};
+pub use binding::{ALMOST_RIGHT, Binding, Bindings, Rule};
 pub use body::{Body, Frame, Mount};
 pub use cable::{Cable, CableLaw, Guide};
 pub use contact::{
@@ -48,7 +51,9 @@ pub use text::{is_unseen, visible, visible_lines};
 pub use tubes::{Tube, Tubes};
 pub use validate::{Issue, name_problem};
 
+use flexura_expression::Formula;
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 macro_rules! ids {
     ($($(#[$doc:meta])* $name:ident => $list:ident: $item:ty),* $(,)?) => {$(
@@ -93,7 +98,7 @@ ids! {
 }
 
 /// A named number that the model was built with.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parameter {
     /// Its name, unique.
     pub name: String,
@@ -101,6 +106,11 @@ pub struct Parameter {
     pub value: f64,
     /// Its SI unit as text ("N", "m", "rad", "" for a plain number).
     pub unit: String,
+    /// How it is written by other parameters, whose positions are the slots; None where it is a number.
+    pub formula: Option<Arc<Formula>>,
+    /// Does it decide of which parts the mechanism is made, as how often something is repeated does? Then only what read the model
+    /// can make it with another value.
+    pub is_structural: bool,
 }
 
 /// A compliant mechanism.
@@ -112,6 +122,8 @@ pub struct Model {
     pub gravity: Vector3<f64>,
     /// The parameters and the values that the model was built with.
     pub parameters: Vec<Parameter>,
+    /// How numbers follow from parameters; see [`Model::bind`].
+    pub bindings: Arc<Bindings>,
     /// Materials.
     pub materials: Vec<Material>,
     /// Cross sections.

@@ -3,6 +3,7 @@
 use crate::format::Named;
 use crate::repeat::{Copies, Expanded};
 use crate::report::{MOST, Problem, Report, Texts};
+use crate::rules::Rules;
 use crate::tree::{Node, Value};
 use flexura_expression::{
     Binding, Expression, ExpressionError, Kind, Lowered, Quantity, Reference, function_table, nearest,
@@ -51,6 +52,8 @@ pub(crate) struct Context<'a> {
     pub misnamed: BTreeSet<String>,
     /// What can be read but is hardly meant: place, path, message, hint. Only so many are kept.
     doubts: RefCell<Vec<Doubt>>,
+    /// How numbers follow from parameters.
+    pub rules: Rules,
 }
 
 /// Something that can be read but is hardly meant.
@@ -78,6 +81,7 @@ impl<'a> Context<'a> {
             alike: RefCell::new(BTreeMap::new()),
             misnamed: BTreeSet::new(),
             doubts: RefCell::new(Vec::new()),
+            rules: Rules::new(root),
         }
     }
 
@@ -100,6 +104,7 @@ impl<'a> Context<'a> {
             alike: self.alike,
             misnamed: self.misnamed,
             doubts: self.doubts,
+            rules: self.rules,
         }
     }
 
@@ -349,12 +354,14 @@ impl<'a> Context<'a> {
             Some((name, kind)) if reference.name() == Some(name) => Ok(Binding::Variable(kind)),
             _ => self.parameter(reference, text, &silent).map(Binding::Value),
         });
-        lowered.map_err(|error| {
+        let lowered = lowered.map_err(|error| {
             if silent.get() {
                 return Reported;
             }
             self.expression_error(node, path, &error)
-        })
+        })?;
+        self.rules.record(path, &expression, variable.map(|(name, _)| name));
+        Ok(lowered)
     }
 
     /// [`Context::lower`], trying the variable as a plain number in SI units, then with its dimension; only the
@@ -385,6 +392,7 @@ impl<'a> Context<'a> {
                     || plain.constant().is_some()
                     || lower(kind).is_err_and(|error| is_call(&text[error.span.clone()]));
                 if accepted {
+                    self.rules.record(path, &expression, Some(variable));
                     return Ok(plain);
                 }
             }

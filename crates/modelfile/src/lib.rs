@@ -39,6 +39,7 @@ mod reader;
 mod reference;
 mod repeat;
 mod report;
+mod rules;
 mod schema;
 mod syntax;
 mod tree;

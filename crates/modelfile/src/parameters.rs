@@ -309,6 +309,7 @@ fn value(
     names: &[Declared<'_>],
 ) -> Option<Quantity> {
     let before = declared.and_then(|declared| declared.get(definition.name)).copied().flatten();
+    context.rules.record_parameter(definition.name, definition.expression.as_ref());
     let Some(expression) = &definition.expression else {
         let Text::File(node) = &definition.text else { return None };
         let mut quantity = context.quantity(node, &definition.path, false).ok().flatten()?;

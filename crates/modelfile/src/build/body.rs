@@ -3,8 +3,8 @@
 use crate::context::{Read, Reported};
 use crate::reader::Reader;
 use crate::tree::Value;
-use flexura_expression::Dimension;
-use flexura_model::Body;
+use flexura_expression::{Dimension, Formula, Quantity};
+use flexura_model::{Body, Rule};
 use flexura_spatial::{Matrix3, Pose, Quaternion, UnitQuaternion, Vector3, exp};
 
 pub(super) fn body(reader: &Reader<'_, '_>, name: String) -> Read<Body> {
@@ -33,6 +33,9 @@ fn inertia(reader: &Reader<'_, '_>) -> Read<Matrix3<f64>> {
         }
         _ => {
             let numbers = reader.numbers_in(&entry.node, &path, key, &[Dimension::INERTIA; 3])?;
+            for i in 0..3 {
+                reader.context.rules.rename(&format!("{path}[{i}]"), &[format!("{path}[{i}][{i}]")]);
+            }
             return Ok(Matrix3::from_diagonal(&Vector3::from(numbers.map(|quantity| quantity.value))));
         }
     };
@@ -49,12 +52,46 @@ fn inertia(reader: &Reader<'_, '_>) -> Read<Matrix3<f64>> {
     result.map(|()| matrix)
 }
 
+/// Joins the formulas of a rotation's numbers.
+fn bind_rotation(
+    table: &Reader<'_, '_>,
+    axis: &Read<Option<Vector3<f64>>>,
+    angle: &Read<Option<f64>>,
+    quaternion: &Read<Option<[Quantity; 4]>>,
+    rpy: &Read<Option<Vector3<f64>>>,
+) {
+    let rules = &table.context.rules;
+    let rule = match (axis, angle, quaternion, rpy) {
+        (Ok(Some(axis)), Ok(Some(angle)), _, _) => {
+            let turning = rules.take_direction(&table.key_path("axis"));
+            let angle_formula = rules.join([table.key_path("angle")], [*angle]);
+            let constants = || <[f64; 3]>::from(*axis).map(Formula::constant);
+            (turning.is_some() || angle_formula.is_some()).then(|| Rule::Turn {
+                axis: turning.unwrap_or_else(constants),
+                angle: angle_formula.map_or_else(|| Formula::constant(*angle), |[formula]| formula),
+            })
+        }
+        (_, _, Ok(Some(wxyz)), _) => {
+            let path = table.key_path("quat_wxyz");
+            rules.join_list(&path, wxyz.map(|quantity| quantity.value)).map(Rule::Quaternion)
+        }
+        (_, _, _, Ok(Some(rpy))) => {
+            rules.join_list(&table.key_path("rpy"), (*rpy).into()).map(Rule::RollPitchYaw)
+        }
+        _ => None,
+    };
+    if let Some(rule) = rule {
+        rules.put(table.path.clone(), rule);
+    }
+}
+
 pub(super) fn rotation(reader: &Reader<'_, '_>) -> Read<UnitQuaternion<f64>> {
     let Some(table) = reader.table("rotation")? else { return Ok(UnitQuaternion::identity()) };
     let axis = table.direction("axis");
     let angle = table.number("angle");
     let quaternion = table.numbers::<4>("quat_wxyz");
     let rpy = table.vector("rpy");
+    bind_rotation(&table, &axis, &angle, &quaternion, &rpy);
     match (axis?, angle?, quaternion?, rpy?) {
         (Some(axis), Some(angle), None, None) => Ok(exp(&(axis * angle))),
         (None, None, Some(wxyz), None) => {

@@ -92,6 +92,8 @@ fn boundary(reader: &Reader<'_, '_>) -> Read<Boundary> {
         "circle" => {
             let (radius, range) = (reader.number("radius").needed(), two("range"));
             let radius = radius?;
+            let both = [0, 1].map(|i| reader.key_path(&format!("semi_axes[{i}]")));
+            reader.context.rules.rename(&reader.key_path("radius"), &both);
             BoundaryCurve::Ellipse { semi_axes: [radius; 2], range: range? }
         }
         "line" => {

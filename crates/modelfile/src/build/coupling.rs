@@ -8,7 +8,7 @@ use crate::tree::Node;
 use flexura_expression::{
     Binding, Dimension, Expression, ExpressionError, Formula, Kind, Reference, Segment,
 };
-use flexura_model::{Coupling, CouplingTerm, Drive, Joint, JointId, JointKind, ProbeTarget};
+use flexura_model::{Coupling, CouplingTerm, Drive, Joint, JointId, JointKind, ProbeTarget, Rule};
 use std::cell::{Cell, RefCell};
 
 /// Deviations and factors below this, relative to the largest terms, are round-off.
@@ -38,13 +38,13 @@ pub(super) fn coupling(reader: &Reader<'_, '_>, name: String, joints: &[Joint]) 
     };
     let left = relation.side(text, 0, sign);
     let right = relation.side(text, sign + 1, text.len());
-    let ((left, left_kind), (right, right_kind)) = (left?, right?);
+    let ((left, left_kind, left_open), (right, right_kind, right_open)) = (left?, right?);
     if let (Kind::Of(a), Kind::Of(b)) = (left_kind, right_kind)
         && !a.agrees(&b)
     {
         return Err(wrong(format!("{a} stands on the left and {b} on the right"), "both sides must agree"));
     }
-    let terms = relation.terms.into_inner();
+    let terms = relation.terms.borrow().clone();
     let difference = |q: &[f64]| left.evaluate(q) - right.evaluate(q);
     let Some((offset, factors)) = linear(terms.len(), &difference) else {
         return Err(wrong(
@@ -53,6 +53,8 @@ pub(super) fn coupling(reader: &Reader<'_, '_>, name: String, joints: &[Joint]) 
         ));
     };
     let greatest = factors.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+    let kept: Vec<usize> = (0..factors.len()).filter(|i| factors[*i].abs() > ROUND_OFF * greatest).collect();
+    relation.bind_rules(reader, [&left_open, &right_open], &terms, &kept);
     let terms: Vec<CouplingTerm> = terms
         .iter()
         .zip(&factors)
@@ -119,7 +121,7 @@ struct Relation<'r, 'a> {
 
 impl Relation<'_, '_> {
     /// One side of the equation, a part of the text.
-    fn side(&self, text: &str, from: usize, to: usize) -> Read<(Formula, Kind)> {
+    fn side(&self, text: &str, from: usize, to: usize) -> Read<(Formula, Kind, Expression)> {
         let part = &text[from..to];
         let silent = Cell::new(false);
         let complain = |error: ExpressionError| {
@@ -138,7 +140,45 @@ impl Relation<'_, '_> {
             return Err(complain(error));
         }
         let kind = lowered.kind;
-        Ok((lowered.formula(), kind))
+        Ok((lowered.formula(), kind, expression))
+    }
+
+    /// The rules of factors and offset, where parameters stand in the relation.
+    fn bind_rules(
+        &self,
+        reader: &Reader<'_, '_>,
+        sides: [&Expression; 2],
+        terms: &[(usize, usize)],
+        kept: &[usize],
+    ) {
+        let rules = &self.context.rules;
+        let with = |one: Option<(usize, usize)>| -> Option<[Formula; 2]> {
+            let side = |expression: &Expression| {
+                rules.open_with(expression, &mut |reference| {
+                    let silent = Cell::new(false);
+                    let (joint, coordinate, _) = self.coordinate(reference, &silent).ok()?;
+                    Some(if one == Some((joint, coordinate)) { 1.0 } else { 0.0 })
+                })
+            };
+            let [left, right] = sides;
+            Some([side(left)?, side(right)?])
+        };
+        let has_parameter = |sides: &[Formula; 2]| sides.iter().any(|side| side.slots().next().is_some());
+        let Some(without) = with(None) else {
+            sides.into_iter().for_each(|side| rules.fix(side));
+            return;
+        };
+        let all: Vec<[Formula; 2]> = terms.iter().filter_map(|term| with(Some(*term))).collect();
+        if !has_parameter(&without) && !all.iter().any(has_parameter) {
+            return;
+        }
+        for (number, term) in kept.iter().enumerate() {
+            if let Some(with) = all.get(*term) {
+                let rule = Rule::Factor { with: with.clone(), without: without.clone() };
+                rules.put(reader.key_path(&format!("factor[{number}]")), rule);
+            }
+        }
+        rules.put(reader.key_path("offset"), Rule::Offset(without));
     }
 
     fn bind(

@@ -5,7 +5,7 @@ use crate::format::{Key, Shape};
 use crate::reader::Reader;
 use crate::tree::{Node, Value};
 use flexura_expression::{Dimension, Function, Kind, Quantity, nearest, reserved};
-use flexura_model::{Curve, Profile, SectionFrame};
+use flexura_model::{Curve, Profile, Rule, SectionFrame};
 use flexura_spatial::Vector3;
 use std::f64::consts::TAU;
 use std::io::Read as _;
@@ -24,7 +24,13 @@ pub(super) fn curve(reader: &Reader<'_, '_>) -> Read<Curve> {
             let (radius, pitch) = (reader.number("radius").needed(), reader.number("pitch").needed());
             let turns = reader.quantity("turns").needed()?;
             let turns = match turns.kind {
-                Kind::Of(dimension) if dimension.is_angle() => turns.value / TAU,
+                Kind::Of(dimension) if dimension.is_angle() => {
+                    let (rules, path) = (&reader.context.rules, reader.key_path("turns"));
+                    if let Some([formula]) = rules.join([path.clone()], [turns.value]) {
+                        rules.put(path, Rule::Quotient(formula, TAU));
+                    }
+                    turns.value / TAU
+                }
                 _ => turns.value,
             };
             Ok(Curve::Helix { radius: radius?, pitch: pitch?, turns })
@@ -99,8 +105,8 @@ fn range(reader: &Reader<'_, '_>) -> Read<[Quantity; 2]> {
     let [from, to] = list.as_slice() else {
         return Err(wrong(format!("expected 2 numbers, found {}", list.len())));
     };
-    let [from, to] = [from, to].map(|node| {
-        let found = reader.context.quantity(node, &path, false)?;
+    let [from, to] = [(0, from), (1, to)].map(|(i, node)| {
+        let found = reader.context.quantity(node, &format!("{path}[{i}]"), false)?;
         found.ok_or_else(|| wrong(format!("expected a number, found {}", node.kind())))
     });
     let (from, to) = (from?, to?);

@@ -6,7 +6,7 @@ use crate::format::{Key, Need, Shape as Format};
 use crate::reader::Reader;
 use crate::tree::{Node, Value};
 use flexura_expression::{Dimension, nearest};
-use flexura_model::{At, Material, Model, Notch, NotchShape, Profile, Section, Shape};
+use flexura_model::{At, Material, Model, Notch, NotchShape, Profile, Rule, Section, Shape};
 use flexura_spatial::Matrix6;
 use std::collections::BTreeMap;
 
@@ -31,6 +31,7 @@ pub(super) fn material(reader: &Reader<'_, '_>, name: String) -> Read<Material> 
                 let message = format!("Poisson's ratio must lie above -1 and at most at 0.5, is {poisson}");
                 return Err(reader.wrong_at("poisson", message, "most metals have about 0.3"));
             }
+            bind_shear(reader, young, poisson);
             young / (2.0 * (1.0 + poisson))
         }
         (None, None) => {
@@ -41,6 +42,17 @@ pub(super) fn material(reader: &Reader<'_, '_>, name: String) -> Read<Material> 
         }
     };
     Ok(Material { name, young, shear, density: density?, yield_strength: yield_strength? })
+}
+
+/// The rule of a shear modulus that is given by Poisson's ratio.
+fn bind_shear(reader: &Reader<'_, '_>, young: f64, poisson: f64) {
+    let rules = &reader.context.rules;
+    let path = reader.key_path("young");
+    let Some([young, poisson]) = rules.join([path.clone(), reader.key_path("poisson")], [young, poisson]) else {
+        return;
+    };
+    rules.put(path, Rule::Number(young.clone()));
+    rules.put(reader.key_path("shear"), Rule::ShearModulus { young, poisson });
 }
 
 pub(super) fn section(reader: &Reader<'_, '_>, name: String) -> Read<Section> {

@@ -53,6 +53,7 @@ pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<M
                 name: declared.name.to_string(),
                 value: quantity.value,
                 unit: quantity.kind.dimension().unit(),
+                ..Parameter::default()
             });
         }
     }
@@ -77,9 +78,9 @@ pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<M
         }
     }
     model.unknowns = unknown::unknowns(context, &model);
-    model.targets = result::targets(context, named_entries(context, "target"), &model, &outputs);
     // With their parameters open, so that models which differ by a parameter alone have the same outputs.
     let live = result::live_outputs(context, &model, &outputs);
+    model.targets = result::targets(context, named_entries(context, "target"), &model, &live);
     model.outputs = live.into_iter().map(|built| built.output).collect();
     if beside.is_none() {
         model.studies = study::studies(context, &model, &outputs);
@@ -108,6 +109,7 @@ pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<M
     if let Some(studies) = beside {
         model.studies = studies.to_vec();
     }
+    context.rules.hand_over(&mut model);
     Some(model)
 }
 

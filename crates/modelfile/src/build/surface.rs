@@ -84,6 +84,8 @@ fn surface(reader: &Reader<'_, '_>) -> Read<Surface> {
         "ellipsoid" => Ok(Surface::Ellipsoid { semi_axes: reader.vector("semi_axes").needed()? }),
         "sphere" => {
             let radius = reader.number("radius").needed()?;
+            let all = [0, 1, 2].map(|i| reader.key_path(&format!("semi_axes[{i}]")));
+            reader.context.rules.rename(&reader.key_path("radius"), &all);
             Ok(Surface::Ellipsoid { semi_axes: Vector3::repeat(radius) })
         }
         "cylinder" => {

@@ -5,7 +5,7 @@ use crate::context::{Needed, Read, Reported};
 use crate::format::Shape;
 use crate::reader::Reader;
 use crate::tree::Value;
-use flexura_model::{Frame, MaterialId, SectionId, Tube, Tubes};
+use flexura_model::{Frame, MaterialId, Rule, SectionId, Tube, Tubes};
 use flexura_spatial::{Pose, Vector3};
 
 pub(super) fn tubes(reader: &Reader<'_, '_>, name: String) -> Read<Tubes> {
@@ -100,7 +100,13 @@ fn curvature(table: &Reader<'_, '_>) -> Read<f64> {
             format!("must be positive, is {radius}"),
             "to bend the other way, turn the tube by `rotation = \"180 deg\"`",
         )),
-        (Some(radius), None) => Ok(1.0 / radius),
+        (Some(radius), None) => {
+            let rules = &table.context.rules;
+            if let Some([formula]) = rules.join([table.key_path("radius")], [radius]) {
+                rules.put(table.key_path("curvature"), Rule::Reciprocal(formula));
+            }
+            Ok(1.0 / radius)
+        }
         (None, curvature) => Ok(curvature.unwrap_or(0.0)),
     }
 }

@@ -5,7 +5,7 @@ use crate::context::{Doubt, Read, Reported};
 use crate::format::{Key, Named, Shape};
 use crate::tree::{Node, Value};
 use flexura_expression::{Dimension, Function, Kind, Quantity, nearest};
-use flexura_model::{At, BodyId, Mount, Profile};
+use flexura_model::{At, BodyId, Mount, Profile, Rule};
 use flexura_spatial::Vector3;
 use std::f64::consts::TAU;
 
@@ -161,6 +161,10 @@ impl<'c> Reader<'c, '_> {
     /// A direction, made a unit vector; zero is refused.
     pub(crate) fn direction(&self, name: &str) -> Read<Option<Vector3<f64>>> {
         let Some(vector) = self.vector(name)? else { return Ok(None) };
+        let path = self.key_path(name);
+        if let Some(formulas) = self.context.rules.join_list(&path, vector.into()) {
+            self.context.rules.put(path, Rule::Direction(formulas));
+        }
         // Scaled first, so that neither tiny nor huge components are lost in the squares.
         let scale = vector.amax();
         if scale == 0.0 {
@@ -300,7 +304,10 @@ impl<'c> Reader<'c, '_> {
             Some(value) if value.is_nan() || (value.is_infinite() && !infinite) => {
                 Err(self.context.wrong(&node.span, path, "must be a finite number"))
             }
-            Some(value) => Ok(Profile::Constant(value)),
+            Some(value) => {
+                self.context.rules.as_number(path);
+                Ok(Profile::Constant(value))
+            }
             None => Ok(Profile::Function(function)),
         }
     }

@@ -149,7 +149,10 @@ fn formula(
                 let message = format!("there is no index or parameter `{name}`");
                 Err(ExpressionError::new(message, reference.span.clone()).with_hint(hint))
             }
-            _ => context.parameter(reference, text, &silent).map(Binding::Value),
+            _ => {
+                reference.name().into_iter().for_each(|name| context.rules.fix_name(name));
+                context.parameter(reference, text, &silent).map(Binding::Value)
+            }
         }
     });
     let lowered = lowered.map_err(&complain)?;

@@ -55,6 +55,9 @@ pub(super) fn live_outputs(context: &Context<'_>, model: &Model, outputs: &[Buil
         let live = results.read(&entry.node, "", text, entry.key.clone()).ok();
         // What can only be read with a parameter's value, such as a power, keeps that.
         context.forget(count);
+        if live.is_none() {
+            context.rules.fix_text(text);
+        }
         live
     };
     outputs.iter().map(|built| live(built).unwrap_or_else(|| built.clone())).collect()
@@ -274,6 +277,7 @@ fn place(
         Some((Segment::Name(name), _)) if name == "start" => Ok(At::Fraction(0.0)),
         Some((Segment::Name(name), _)) if name == "end" => Ok(At::Fraction(1.0)),
         Some((Segment::Index(index), span)) => {
+            context.rules.fix(index);
             let found = index.evaluate(&mut |reference| context.parameter(reference, text, silent))?;
             let at = station(found).filter(|_| found.value.is_finite());
             let at = at.ok_or_else(|| {

@@ -4,7 +4,7 @@ use super::{Built, Results, Walk};
 use crate::context::{Context, Read, suggest};
 use crate::tree::{Entry, Node, Value};
 use flexura_expression::{ExpressionError, Kind, Reference};
-use flexura_model::{Model, Output, Target};
+use flexura_model::{Model, Output, Quantity, Target};
 use std::cell::Cell;
 
 impl<'r> Results<'r, '_> {
@@ -59,7 +59,7 @@ pub(in crate::build) fn targets(
     model: &Model,
     outputs: &[Built],
 ) -> Vec<Target> {
-    let results = Results { context, model, outputs: Some(outputs), is_live: false, may_be_infinite: false };
+    let results = Results { context, model, outputs: Some(outputs), is_live: true, may_be_infinite: false };
     entries.iter().filter_map(|entry| target(&results, entry).ok()).collect()
 }
 
@@ -88,7 +88,7 @@ fn target(results: &Results<'_, '_>, entry: &Entry) -> Read<Target> {
             format!("name a component, for example `\"{}.x\"`", entry.key),
         ));
     }
-    if output.probes.is_empty() {
+    if output.probes.iter().all(|probe| probe.quantity == Quantity::Parameter) {
         let message = "a target must refer to a result, or nothing can change it";
         return Err(context.wrong_with_hint(&entry.key_span, &path, message, results.roots()));
     }
