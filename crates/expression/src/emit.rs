@@ -4,8 +4,8 @@
 //! the last bit.
 
 use crate::expression::{Binary, Call, Node};
-use crate::{Expression, Reference};
 use crate::program::{Instruction, Program, STACK};
+use crate::{Expression, Reference};
 use crate::{Formula, Function};
 
 /// Largest constant exponent that is a whole power.

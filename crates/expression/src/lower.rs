@@ -1,7 +1,7 @@
 //! Binding references, checking dimensions and compiling, in one walk over the postfix list.
 
-use crate::expression::{Binary, Call, Node};
 use crate::emit::{Emitter, Folded};
+use crate::expression::{Binary, Call, Node};
 use crate::program::{Instruction, Program, STACK};
 use crate::{Dimension, Expression, ExpressionError, Formula, Function, Kind, Quantity, Reference};
 use std::ops::Range;

@@ -18,10 +18,9 @@ use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// A model file that was read, and what is wanted of its studies.
-pub struct Task<'a> {
+pub struct Task {
     pub file: Document,
     pub model: Model,
-    pub overrides: &'a [(String, String)],
     pub options: Options,
     pub folder: Option<PathBuf>,
     /// What is wanted by its name.
@@ -30,16 +29,15 @@ pub struct Task<'a> {
     pub is_quiet: bool,
 }
 
-impl<'a> Task<'a> {
+impl Task {
     /// Makes the model of a file that was read.
     pub fn new(
-        arguments: &'a ModelArguments,
+        arguments: &ModelArguments,
         file: Document,
         (folder, shown): (Option<&Path>, &ShownArguments),
         tolerance: Option<f64>,
     ) -> Result<Self, Failure> {
-        let overrides = &arguments.overrides;
-        let model = file.model(overrides).map_err(|report| file_failure(&report))?;
+        let model = file.model(&arguments.overrides).map_err(|report| file_failure(&report))?;
         let mut options = Options { interrupt: interrupt::listen(), ..Options::default() };
         if let Some(tolerance) = tolerance {
             options.tolerance = tolerance;
@@ -54,7 +52,7 @@ impl<'a> Task<'a> {
         if is_json || folder.is_some() || shown.wants_page() {
             options.shapes = SHAPE;
         }
-        Ok(Self { file, model, overrides, options, folder, shown, is_json, is_quiet })
+        Ok(Self { file, model, options, folder, shown, is_json, is_quiet })
     }
 
     /// Will anybody read the result document?

@@ -5,10 +5,10 @@
 
 #![allow(clippy::print_stdout, reason = "a bench prints its table")]
 
-use flexura::model::{Drive, Model, StudyKind, TraceStudy};
+use flexura::model::{Model, StudyKind, TraceStudy};
 use flexura::modelfile::Document;
 use flexura::solution::{Status, Trace};
-use flexura::{Family, FileFamily, Options, Prepared, ProblemError, trace};
+use flexura::{Options, Prepared, trace};
 use std::time::Instant;
 
 fn read(file: &str) -> Document {
@@ -19,9 +19,9 @@ fn position(model: &Model, name: &str) -> usize {
     model.parameters.iter().position(|parameter| parameter.name == name).expect("a parameter")
 }
 
-fn follow(model: &Model, family: &mut dyn Family, study: &TraceStudy) -> Trace {
+fn follow(model: &Model, study: &TraceStudy) -> Trace {
     let options = Options { tolerance: 1e-8, ..Options::default() };
-    let trace = trace(model, family, study, &options, &mut |_| {}).expect("a sound model");
+    let trace = trace(model, study, &options, &mut |_| {}).expect("a sound model");
     assert_eq!(trace.status, Status::Converged, "{:?}", trace.reason);
     trace
 }
@@ -63,32 +63,12 @@ fn strips(kind: &str) {
     let mut study =
         TraceStudy { parameter: push, range: [0.0, 25.0], start: 0.0, steps: 90, ..TraceStudy::default() };
     if kind == "strip" {
-        report("push of a strip, from its file", || {
-            let mut family = FileFamily::new(&document, &[], &model);
-            follow(&model, &mut family, &study)
-        });
-        let Drive::Free { effort } = model.joints[0].law.coordinates[0].drive else { return };
-        let unit = effort / model.parameters[push].value;
-        report("push of a strip, from a closure", || {
-            let mut family = |values: &[(usize, f64)]| -> Result<Model, ProblemError> {
-                let mut other = model.clone();
-                for (parameter, value) in values {
-                    other.parameters[*parameter].value = *value;
-                    other.joints[0].law.coordinates[0].drive = Drive::Free { effort: unit * value };
-                }
-                Ok(other)
-            };
-            follow(&model, &mut family, &study)
-        });
+        report("push of a strip", || follow(&model, &study));
         let thickness = position(&model, "height");
         let bent = document.model(&[("push".into(), "18".into())]).expect("a good model");
         let slimmer =
             TraceStudy { parameter: thickness, range: [0.254e-3, 0.2e-3], start: 0.254e-3, ..study };
-        report("thickness of a strip, from its file", || {
-            let overrides = [("push".to_string(), "18".to_string())];
-            let mut family = FileFamily::new(&document, &overrides, &bent);
-            follow(&bent, &mut family, &slimmer)
-        });
+        report("thickness of a strip", || follow(&bent, &slimmer));
         return;
     }
     let upright = [("slope".to_string(), "90 deg".to_string())];
@@ -96,10 +76,7 @@ fn strips(kind: &str) {
     if kind == "branch" {
         study.branches = 1;
         study.steps = 40;
-        report("upright strip with the branch that crosses", || {
-            let mut family = FileFamily::new(&document, &upright, &model);
-            follow(&model, &mut family, &study)
-        });
+        report("upright strip with the branch that crosses", || follow(&model, &study));
         return;
     }
     let path = format!("{}/../../models/strip_on_slope.toml", env!("CARGO_MANIFEST_DIR"));
@@ -108,10 +85,7 @@ fn strips(kind: &str) {
     let document = Document::parse(&format!("{text}\n{more}"), "strip.toml").expect("a good file");
     let model = document.model(&[]).expect("a good model");
     let StudyKind::Trace(study) = model.studies[0].kind.clone() else { return };
-    report("strip with an event", || {
-        let mut family = FileFamily::new(&document, &[], &model);
-        follow(&model, &mut family, &study)
-    });
+    report("strip with an event", || follow(&model, &study));
 }
 
 /// The number of unstable directions alone, at a solved state.

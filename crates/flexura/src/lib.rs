@@ -98,7 +98,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Whole grids over the parameters of a file are solved by a [`Sweep`], on all cores.
+//! Whole grids over the parameters of a model are solved by a [`Sweep`], on all cores.
 //!
 //! # Paths of equilibria
 //!
@@ -108,20 +108,19 @@
 //! ```
 //! use flexura::model::TraceStudy;
 //! use flexura::solution::PointKind;
-//! use flexura::{FileFamily, Options, modelfile::Document};
+//! use flexura::{Options, modelfile::Document};
 //! # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
 //! let file = Document::read("models/lee_frame.toml")?;
 //! let model = file.model(&[])?;
 //! let load = model.parameters.iter().position(|parameter| parameter.name == "load").expect("the file has it");
 //! let study = TraceStudy { parameter: load, range: [-2.0, 2.5], start: 0.0, ..TraceStudy::default() };
-//! let mut family = FileFamily::new(&file, &[], &model);
-//! let trace = flexura::trace(&model, &mut family, &study, &Options::default(), &mut |_| {})?;
+//! let trace = flexura::trace(&model, &study, &Options::default(), &mut |_| {})?;
 //! let folds = trace.branches[0].points.iter().filter(|point| point.kind == PointKind::Fold);
 //! let loads: Vec<f64> = folds.map(|point| point.parameter).collect();
 //! // Lee, Manuel and Rossow (1968).
 //! assert!((loads[0] - 1.85567).abs() < 1e-5 && (loads[1] + 0.94144).abs() < 1e-5);
 //!
-//! let picture = flexura::output::diagram_svg(&flexura::trace_view(&model, &study, &trace, &mut family));
+//! let picture = flexura::output::diagram_svg(&flexura::output::TraceView::new(&model, &study, &trace));
 //! assert!(picture.contains("unstable"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -135,17 +134,15 @@
 //! it came. [`post::evaluate`] gives stresses, safety factors and outputs; [`output::document`] the result
 //! document; [`output::beams_csv`], [`output::model_vtp`] and [`output::shape_svg`] the files; [`report::page`] the page that shows a document.
 
-mod family;
 mod motion_file;
 mod places;
 mod solve_file;
 mod sweep;
 mod trace_file;
 
-pub use family::FileFamily;
 pub use motion_file::{Moved, inverse_dynamics_file, motion_view};
 pub use places::place;
-pub use sweep::{Axis, Sample, SampleStatus, Sweep};
+pub use sweep::{Axis, Remake, Sample, SampleStatus, Sweep, remake};
 
 pub use flexura_expression as expression;
 pub use flexura_geometry as geometry;
@@ -158,9 +155,9 @@ pub use flexura_report as report;
 pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;
 pub use flexura_study::{
-    Census, Equilibrium, Family, Interrupt, MotionProgress, Options, Outcome, Prepared, ProblemError,
-    Progress, SensitivityError, TraceProgress, buckle, check, equilibria, inverse_dynamics, solve,
-    solve_family, trace,
+    Census, Equilibrium, Family, Interrupt, ModelFamily, MotionProgress, Options, Outcome, Prepared,
+    ProblemError, Progress, SensitivityError, TraceProgress, buckle, buckle_family, check, equilibria,
+    inverse_dynamics, inverse_dynamics_family, solve, solve_family, solve_model, trace, trace_family,
 };
 pub use solve_file::{Error, Solved, solve_file};
-pub use trace_file::{Buckled, Traced, buckle_file, study_named, trace_file, trace_view};
+pub use trace_file::{Buckled, Traced, buckle_file, study_named, trace_file};

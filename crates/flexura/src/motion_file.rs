@@ -4,7 +4,7 @@ use crate::model::{InverseDynamicsStudy, Model, StudyKind};
 use crate::modelfile::Document;
 use crate::output::{self, MotionView, OutputError};
 use crate::solution::InverseDynamics;
-use crate::{Error, FileFamily, Options};
+use crate::{Error, Options};
 use std::path::Path;
 
 /// A motion in time with what belongs to it.
@@ -69,8 +69,6 @@ pub fn inverse_dynamics_file(
         _ => None,
     };
     let study = crate::trace_file::chosen(&file, &model, study, "inverse_dynamics", motion)?;
-    let mut family = FileFamily::new(&file, overrides, &model);
-    let motion =
-        crate::inverse_dynamics(&model, &mut family, &study, options, &mut |_| {}).map_err(Error::Model)?;
+    let motion = crate::inverse_dynamics(&model, &study, options, &mut |_| {}).map_err(Error::Model)?;
     Ok(Moved { model, study, motion })
 }

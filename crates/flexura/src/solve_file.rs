@@ -80,9 +80,7 @@ pub fn solve_file(
 ) -> Result<Solved, Error> {
     let file = Document::read(path.as_ref()).map_err(Error::File)?;
     let model = file.model(overrides).map_err(Error::File)?;
-    let mut family = crate::FileFamily::new(&file, overrides, &model);
-    let (mut solution, model) =
-        crate::solve_family(&model, &mut family, options, &mut |_| {}).map_err(Error::Model)?;
+    let (mut solution, model) = crate::solve_model(&model, options, &mut |_| {}).map_err(Error::Model)?;
     let evaluation = post::evaluate_each(&model, &solution);
     solution.warnings.extend(evaluation.without_value.iter().map(ToString::to_string));
     Ok(Solved { model, solution, evaluation })

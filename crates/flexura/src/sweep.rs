@@ -1,4 +1,4 @@
-//! Many solves of one file over a grid of its parameters.
+//! Many solves of one model over a grid of its parameters.
 //!
 //! Every sample is a solve of its own, from rest, so that its numbers depend neither on its neighbours nor on how many
 //! threads share the work.
@@ -8,7 +8,7 @@ use crate::model::Model;
 use crate::modelfile::{Document, suggestion};
 use crate::post::{OutputResult, each_output};
 use crate::solution::{Solution, Status};
-use crate::{FileFamily, Options, solve_family};
+use crate::{Options, solve_model};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -227,10 +227,36 @@ impl Sample {
     }
 }
 
-/// The full grid over some parameters of a file.
+/// Makes a model again with other values (SI) of parameters, by their positions; an error is one sentence.
+pub type Remake<'a> = dyn Fn(&[(usize, f64)]) -> Result<Model, String> + Sync + 'a;
+
+/// A [`Remake`] by a file and what is overridden in it.
+pub fn remake<'a>(
+    file: &'a Document,
+    overrides: &'a [(String, String)],
+    model: &'a Model,
+) -> impl Fn(&[(usize, f64)]) -> Result<Model, String> + Sync + 'a {
+    move |values| {
+        let mut overrides = overrides.to_vec();
+        for (position, value) in values {
+            let parameter = &model.parameters[*position];
+            overrides.retain(|(name, _)| *name != parameter.name);
+            // The shortest text that reads back as the same number, with the SI unit.
+            overrides.push((parameter.name.clone(), format!("{value:e} {}", parameter.unit)));
+        }
+        file.model(&overrides).map_err(|report| {
+            report.problems().first().map(|problem| told(&problem.path, &problem.message)).unwrap_or_default()
+        })
+    }
+}
+
+/// The full grid over some parameters of a model.
 pub struct Sweep<'a> {
-    document: &'a Document,
-    overrides: Vec<(String, String)>,
+    model: &'a Model,
+    /// Positions of the axes' parameters.
+    varied: Vec<usize>,
+    /// For parameters that decide of which parts the mechanism is made.
+    remake: Option<&'a Remake<'a>>,
     axes: Vec<Axis>,
     options: Options,
     /// Some(n): every n-th sample keeps its shape.
@@ -241,21 +267,19 @@ impl<'a> Sweep<'a> {
     /// All combinations of the axes' values, those of the last axis next to each other.
     ///
     /// # Errors
-    /// One sentence: a parameter that is varied twice, or both set and varied; too many samples.
-    pub fn new(
-        document: &'a Document,
-        overrides: &[(String, String)],
-        axes: Vec<Axis>,
-        options: &Options,
-    ) -> Result<Self, String> {
-        for (i, axis) in axes.iter().enumerate() {
+    /// One sentence: a parameter that is not there or is varied twice; too many samples.
+    pub fn new(model: &'a Model, axes: Vec<Axis>, options: &Options) -> Result<Self, String> {
+        let mut varied = Vec::with_capacity(axes.len());
+        for axis in &axes {
             let name = &axis.parameter;
-            if axes[..i].iter().any(|other| other.parameter == *name) {
+            let names: Vec<&str> = model.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+            let position = names.iter().position(|known| known == name).ok_or_else(|| {
+                format!("there is no parameter `{name}` to vary; {}", suggestion(name, &names, "parameter"))
+            })?;
+            if varied.contains(&position) {
                 return Err(format!("`{name}` is varied twice"));
             }
-            if overrides.iter().any(|(set, _)| set == name) {
-                return Err(format!("`{name}` is both set and varied"));
-            }
+            varied.push(position);
         }
         let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.values.len()));
         match count {
@@ -265,7 +289,15 @@ impl<'a> Sweep<'a> {
         // Only outputs are read, and every place that one asks for is sampled anyway.
         let options =
             Options { samples: 2, sensitivities: false, compliances: Vec::new(), ..options.clone() };
-        Ok(Self { document, overrides: overrides.to_vec(), axes, options, shapes: None })
+        Ok(Self { model, varied, remake: None, axes, options, shapes: None })
+    }
+
+    /// What makes the models where a varied parameter is [`crate::model::Parameter::is_structural`]: how often something is
+    /// repeated, say, which whatever read the model knows.
+    #[must_use]
+    pub fn remade_by(mut self, remake: &'a Remake<'a>) -> Self {
+        self.remake = Some(remake);
+        self
     }
 
     /// Keeps shapes of the samples of a model with so many beams: of all of them, or evenly of so many that they do not fill the
@@ -361,20 +393,21 @@ impl<'a> Sweep<'a> {
 
     fn sample(&self, position: usize) -> Sample {
         let mut sample = Sample { status: SampleStatus::InputError, ..self.unsolved(position) };
-        let mut overrides = self.overrides.clone();
-        for (axis, value) in self.axes.iter().zip(&sample.values) {
-            overrides.push((axis.parameter.clone(), format!("{value:e} {}", axis.unit)));
-        }
-        let model = match self.document.model(&overrides) {
+        let values: Vec<(usize, f64)> =
+            self.varied.iter().copied().zip(sample.values.iter().copied()).collect();
+        let structural = |position: &usize| self.model.parameters[*position].is_structural;
+        let model = match self.remake.filter(|_| self.varied.iter().any(structural)) {
+            Some(remake) => remake(&values),
+            None => self.model.at(&values).map_err(|issue| told(&issue.path, &issue.message)),
+        };
+        let model = match model {
             Ok(model) => model,
-            Err(report) => {
-                sample.reason =
-                    report.problems().first().map(|problem| told(&problem.path, &problem.message));
+            Err(reason) => {
+                sample.reason = Some(reason);
                 return sample;
             }
         };
-        let mut family = FileFamily::new(self.document, &overrides, &model);
-        let (solution, model) = match solve_family(&model, &mut family, &self.options, &mut |_| {}) {
+        let (solution, model) = match solve_model(&model, &self.options, &mut |_| {}) {
             Ok(solved) => solved,
             Err(error) => {
                 sample.reason = Some(told(&error.path, &error.message));
@@ -418,8 +451,12 @@ mod tests {
     use crate::model::Parameter;
 
     fn axis(text: &str) -> Result<Vec<f64>, String> {
-        let parameter =
-            |name: &str, unit: &str| Parameter { name: name.into(), value: 1.0, unit: unit.into() };
+        let parameter = |name: &str, unit: &str| Parameter {
+            name: name.into(),
+            value: 1.0,
+            unit: unit.into(),
+            ..Parameter::default()
+        };
         let parameters = vec![parameter("push", "N"), parameter("turns", ""), parameter("slope", "rad")];
         Axis::parse(&Model { parameters, ..Model::default() }, text).map(|axis| axis.values)
     }
@@ -435,8 +472,12 @@ mod tests {
 
     #[test]
     fn values_are_kept_in_the_unit_that_was_typed_with_the_fewest_digits() {
-        let parameter =
-            |name: &str, unit: &str| Parameter { name: name.into(), value: 1.0, unit: unit.into() };
+        let parameter = |name: &str, unit: &str| Parameter {
+            name: name.into(),
+            value: 1.0,
+            unit: unit.into(),
+            ..Parameter::default()
+        };
         let parameters = vec![parameter("length", "m"), parameter("slope", "rad"), parameter("turns", "")];
         let model = Model { parameters, ..Model::default() };
         let typed = |text: &str| Axis::parse(&model, text).map(|axis| (axis.typed_unit, axis.typed)).unwrap();

@@ -5,7 +5,7 @@ use crate::modelfile::{Document, suggestion};
 use crate::output::{self, OutputError, TraceView};
 use crate::post::{self, Evaluation};
 use crate::solution::{Buckling, Trace};
-use crate::{Error, Family, FileFamily, Options, ProblemError};
+use crate::{Error, Family, ModelFamily, Options, ProblemError};
 use std::path::Path;
 
 /// A path of equilibria with what belongs to it.
@@ -17,15 +17,12 @@ pub struct Traced {
     pub study: TraceStudy,
     /// What came out.
     pub trace: Trace,
-    file: Document,
-    overrides: Vec<(String, String)>,
 }
 
 impl Traced {
     /// The trace as its outputs want it, such as [`output::trace_document`] and [`output::diagram_svg`].
     pub fn view(&self) -> TraceView<'_> {
-        let mut family = FileFamily::new(&self.file, &self.overrides, &self.model);
-        trace_view(&self.model, &self.study, &self.trace, &mut family)
+        TraceView::new(&self.model, &self.study, &self.trace)
     }
 
     /// The result document.
@@ -51,19 +48,14 @@ pub struct Buckled {
 }
 
 impl Buckled {
-    /// Critical loads of a model, whose family it belongs to.
+    /// Critical loads of a model.
     ///
     /// # Errors
     /// The model describes no solvable mechanism.
-    pub fn new(
-        model: &Model,
-        family: &mut dyn Family,
-        study: &BuckleStudy,
-        options: &Options,
-    ) -> Result<Self, ProblemError> {
-        let buckling = crate::buckle(model, family, study, options)?;
+    pub fn new(model: &Model, study: &BuckleStudy, options: &Options) -> Result<Self, ProblemError> {
+        let buckling = crate::buckle(model, study, options)?;
         let model = match study.parameter {
-            Some(parameter) => family.model(&[(parameter, study.at)])?,
+            Some(parameter) => ModelFamily::new(model).model(&[(parameter, study.at)])?,
             None => model.clone(),
         };
         let evaluation = post::evaluate_each(&model, &buckling.solution);
@@ -77,16 +69,6 @@ impl Buckled {
     pub fn document(&self) -> Result<output::BucklingDocument, OutputError> {
         output::buckling_document(&self.model, &self.buckling, &self.evaluation)
     }
-}
-
-/// A trace as its outputs want it, each kept state with the model that belongs to it.
-pub fn trace_view<'a>(
-    model: &'a Model,
-    study: &'a TraceStudy,
-    trace: &'a Trace,
-    family: &mut dyn Family,
-) -> TraceView<'a> {
-    TraceView::new(model, study, trace, &mut |values| family.model(values).ok())
 }
 
 /// Reads a model file, overrides parameters (name, value with an optional unit) and follows the path of its study of that
@@ -108,9 +90,8 @@ pub fn trace_file(
         _ => None,
     };
     let study = chosen(&file, &model, study, "trace", trace)?;
-    let mut family = FileFamily::new(&file, overrides, &model);
-    let trace = crate::trace(&model, &mut family, &study, options, &mut |_| {}).map_err(Error::Model)?;
-    Ok(Traced { model, study, trace, file, overrides: overrides.to_vec() })
+    let trace = crate::trace(&model, &study, options, &mut |_| {}).map_err(Error::Model)?;
+    Ok(Traced { model, study, trace })
 }
 
 /// Reads a model file, overrides parameters and finds the critical loads of its study of that name; None: of its first of
@@ -131,8 +112,7 @@ pub fn buckle_file(
         _ => None,
     };
     let study = chosen(&file, &model, study, "buckle", buckle)?;
-    let mut family = FileFamily::new(&file, overrides, &model);
-    Buckled::new(&model, &mut family, &study, options).map_err(Error::Model)
+    Buckled::new(&model, &study, options).map_err(Error::Model)
 }
 
 /// The study of that name.

@@ -6,7 +6,7 @@
 use flexura::model::BuckleStudy;
 use flexura::modelfile::Document;
 use flexura::solution::{Buckling, BucklingMode};
-use flexura::{FileFamily, Options, ProblemError, buckle};
+use flexura::{Options, ProblemError, buckle};
 use flexura_testkit::columns::Ends;
 use std::f64::consts::{PI, TAU};
 
@@ -15,8 +15,7 @@ fn buckled(text: &str, parameter: Option<&str>, at: f64, count: usize) -> Result
     let model = document.model(&[]).unwrap_or_else(|report| panic!("{report}\n{text}"));
     let position = |name: &str| model.parameters.iter().position(|p| p.name == name).unwrap();
     let study = BuckleStudy { parameter: parameter.map(position), at, count };
-    let mut family = FileFamily::new(&document, &[], &model);
-    buckle(&model, &mut family, &study, &Options { samples: 21, ..Options::default() })
+    buckle(&model, &study, &Options { samples: 21, ..Options::default() })
 }
 
 /// A bundled column; its parameter `push` is in EI/L².

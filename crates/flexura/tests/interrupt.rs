@@ -6,7 +6,7 @@
 use flexura::model::{BuckleStudy, InverseDynamicsStudy, StudyKind, TraceStudy};
 use flexura::modelfile::Document;
 use flexura::solution::{BranchEnd, Status};
-use flexura::{Axis, Family, FileFamily, Interrupt, Options, Sweep};
+use flexura::{Axis, Family, Interrupt, ModelFamily, Options, Sweep};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn bundled(name: &str) -> Document {
@@ -52,13 +52,11 @@ fn a_flag_that_is_raised_beforehand_ends_every_study_at_once() {
     let solution = flexura::solve(&model, &options, &mut |_| {}).unwrap();
     assert_eq!((solution.status, solution.load_fraction), (Status::Interrupted, 0.0));
     let trace = TraceStudy { parameter: 0, range: [0.0, 10.0], ..TraceStudy::default() };
-    let traced =
-        flexura::trace(&model, &mut FileFamily::new(&file, &[], &model), &trace, &options, &mut |_| {});
+    let traced = flexura::trace(&model, &trace, &options, &mut |_| {});
     assert_eq!(traced.unwrap().status, Status::Interrupted);
     let buckle = BuckleStudy { parameter: None, at: 0.0, count: 2 };
     let model = bundled("euler_pinned_pinned.toml").model(&[]).unwrap();
-    let mut family = |_: &[(usize, f64)]| Ok(model.clone());
-    let buckling = flexura::buckle(&model, &mut family, &buckle, &options).unwrap();
+    let buckling = flexura::buckle(&model, &buckle, &options).unwrap();
     assert_eq!((buckling.solution.status, buckling.modes.len()), (Status::Interrupted, 0));
     assert_eq!(flexura::equilibria(&model, &options, 1_000_000, 0).unwrap().len(), 1);
 }
@@ -70,7 +68,7 @@ fn critical_values_that_were_not_found_are_no_error() {
     let interrupt = Interrupt::new();
     let parameter = model.parameters.iter().position(|parameter| parameter.name == "push").unwrap();
     // The equilibrium is found; the first neighbouring model ends the study.
-    let mut own = FileFamily::new(&file, &[], &model);
+    let mut own = ModelFamily::new(&model);
     let mut asked = 0;
     let mut family = |values: &[(usize, f64)]| {
         asked += 1;
@@ -80,7 +78,7 @@ fn critical_values_that_were_not_found_are_no_error() {
         own.model(values)
     };
     let study = BuckleStudy { parameter: Some(parameter), at: 0.0, count: 2 };
-    let buckling = flexura::buckle(&model, &mut family, &study, &heeding(&interrupt)).unwrap();
+    let buckling = flexura::buckle_family(&model, &mut family, &study, &heeding(&interrupt)).unwrap();
     assert_eq!(buckling.solution.status, Status::Interrupted);
     assert!(buckling.solution.reason.unwrap().contains("before the critical values were found"));
     assert!(buckling.modes.is_empty());
@@ -94,8 +92,7 @@ fn what_an_ended_trace_has_found_is_how_the_whole_one_begins() {
     let study = TraceStudy { parameter: load, range: [-2.0, 2.5], start: 0.0, ..TraceStudy::default() };
     let follow = |options: &Options, most: usize, interrupt: &Interrupt| {
         let (mut told, mut count) = (Vec::new(), 0);
-        let mut family = FileFamily::new(&file, &[], &model);
-        let trace = flexura::trace(&model, &mut family, &study, options, &mut |progress| {
+        let trace = flexura::trace(&model, &study, options, &mut |progress| {
             told.extend(progress.found.iter().map(|point| point.parameter));
             count += 1;
             if count == most {
@@ -123,7 +120,7 @@ fn what_an_ended_trace_has_found_is_how_the_whole_one_begins() {
             assert!(known.contains(&point.parameter), "{} is no point of the whole path", point.parameter);
         }
         assert!(branch.points.len() >= told.len() - 1);
-        let view = flexura::trace_view(&model, &study, &trace, &mut FileFamily::new(&file, &[], &model));
+        let view = flexura::output::TraceView::new(&model, &study, &trace);
         assert!(flexura::output::path_csv(&view).unwrap().lines().count() == branch.points.len() + 1);
         assert!(flexura::output::diagram_svg(&view).contains("not converged, interrupted"));
     }
@@ -140,8 +137,7 @@ fn an_ended_motion_keeps_its_times() {
     let study: InverseDynamicsStudy = study.unwrap();
     let run = |most: usize| {
         let interrupt = Interrupt::new();
-        let mut family = FileFamily::new(&file, &[], &model);
-        flexura::inverse_dynamics(&model, &mut family, &study, &heeding(&interrupt), &mut |progress| {
+        flexura::inverse_dynamics(&model, &study, &heeding(&interrupt), &mut |progress| {
             if progress.done == most {
                 interrupt.raise();
             }
@@ -192,7 +188,7 @@ fn an_inverse_problem_and_its_sensitivities_can_be_ended() {
     // Ended when the first neighbour is asked for: on the way to the targets.
     let solve = |after: usize, sensitivities: bool| {
         let interrupt = Interrupt::new();
-        let mut own = FileFamily::new(&file, &[], &model);
+        let mut own = ModelFamily::new(&model);
         let mut asked = 0;
         let mut family = |values: &[(usize, f64)]| {
             asked += 1;
@@ -225,11 +221,10 @@ fn an_ended_sweep_has_its_beginning() {
     let file = bundled("elastica.toml");
     let model = file.model(&[]).unwrap();
     let axis = || vec![Axis::parse(&model, "force=1 N:10 N:40").unwrap()];
-    let whole =
-        Sweep::new(&file, &[], axis(), &Options::default()).unwrap().run(Some(2), &|_, _| {}).unwrap();
+    let whole = Sweep::new(&model, axis(), &Options::default()).unwrap().run(Some(2), &|_, _| {}).unwrap();
     let interrupt = Interrupt::new();
     let count = AtomicUsize::new(0);
-    let sweep = Sweep::new(&file, &[], axis(), &heeding(&interrupt)).unwrap();
+    let sweep = Sweep::new(&model, axis(), &heeding(&interrupt)).unwrap();
     let samples = sweep.run(Some(2), &|_, _| {
         if count.fetch_add(1, Ordering::Relaxed) == 9 {
             interrupt.raise();

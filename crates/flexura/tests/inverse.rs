@@ -7,7 +7,7 @@ use flexura::model::{Model, Output, Probe, Target, Unknown};
 use flexura::modelfile::Document;
 use flexura::post::OutputValue;
 use flexura::solution::Status;
-use flexura::{FileFamily, Options, solve_family};
+use flexura::{Options, solve_model};
 
 const MECHANISM: &str = r#"
 format = 1
@@ -71,8 +71,7 @@ fn sensitivities_are_the_derivatives_of_whole_solves() {
     let document = Document::parse(MECHANISM, "mechanism.toml").unwrap();
     let solve = |overrides: &[(String, String)], sensitivities| {
         let model = document.model(overrides).unwrap();
-        let mut family = FileFamily::new(&document, overrides, &model);
-        solve_family(&model, &mut family, &options(sensitivities), &mut |_| {}).unwrap()
+        solve_model(&model, &options(sensitivities), &mut |_| {}).unwrap()
     };
     let (solution, model) = solve(&[], true);
     assert_eq!(solution.status, Status::Converged, "{:?}", solution.reason);
@@ -122,8 +121,7 @@ fn target(model: &Model, output: usize, component: usize, value: f64) -> Target 
 fn what_was_given_comes_back_when_it_is_asked_for() {
     let document = Document::parse(MECHANISM, "mechanism.toml").unwrap();
     let model = document.model(&[]).unwrap();
-    let mut family = FileFamily::new(&document, &[], &model);
-    let (solution, _) = solve_family(&model, &mut family, &options(false), &mut |_| {}).unwrap();
+    let (solution, _) = solve_model(&model, &options(false), &mut |_| {}).unwrap();
     let wanted = values(&model, &solution);
     let names = ["force", "length", "angle"];
     let position = |name: &str| model.parameters.iter().position(|p| p.name == name).unwrap();
@@ -139,9 +137,7 @@ fn what_was_given_comes_back_when_it_is_asked_for() {
     let guess =
         [("force", "0.1 N"), ("length", "140 mm"), ("angle", "10 deg")].map(|(n, v)| (n.into(), v.into()));
     let guessed = exchange(document.model(&guess).unwrap());
-    let mut inner = FileFamily::new(&document, &guess, &guessed);
-    let mut family = |values: &[(usize, f64)]| flexura::Family::model(&mut inner, values).map(exchange);
-    let (solution, found) = solve_family(&guessed, &mut family, &options(false), &mut |_| {}).unwrap();
+    let (solution, found) = solve_model(&guessed, &options(false), &mut |_| {}).unwrap();
     assert_eq!(solution.status, Status::Converged, "{:?}", solution.reason);
     for name in names {
         let (value, truth) = (found.parameters[position(name)].value, model.parameters[position(name)].value);

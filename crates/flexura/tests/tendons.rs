@@ -7,7 +7,7 @@ use flexura::model::{Cable, CableLaw, Guide, Model};
 use flexura::modelfile::Document;
 use flexura::post::OutputValue;
 use flexura::solution::{Solution, Status};
-use flexura::{Equilibrium, FileFamily, Options, solve_family};
+use flexura::{Equilibrium, Options, solve_model};
 
 const ROBOT: &str = r#"
 format = 1
@@ -210,9 +210,8 @@ fn sensitivities_see_tendons() {
     let document = Document::parse(&text, "test.toml").unwrap();
     let solve = |overrides: &[(String, String)], sensitivities| {
         let model = document.model(overrides).unwrap();
-        let mut family = FileFamily::new(&document, overrides, &model);
         let options = Options { tolerance: 1e-12, samples: 3, sensitivities, ..Options::default() };
-        let (solution, model) = solve_family(&model, &mut family, &options, &mut |_| {}).unwrap();
+        let (solution, model) = solve_model(&model, &options, &mut |_| {}).unwrap();
         assert_eq!(solution.status, Status::Converged, "{:?}", solution.reason);
         let evaluation = flexura::post::evaluate(&model, &solution).unwrap();
         let flat = |value| match value {

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use flexura::modelfile::Document;
-use flexura::{FileFamily, Options, solve_family};
+use flexura::{Options, solve_model};
 use std::path::Path;
 
 #[test]
@@ -14,10 +14,9 @@ fn parameters_that_nothing_uses_have_no_derivative_and_take_no_time() {
     text = text.replacen("[parameter]\n", &format!("[parameter]\n{many}"), 1);
     let document = Document::parse(&text, "many.toml").unwrap();
     let model = document.model(&[]).unwrap();
-    let mut family = FileFamily::new(&document, &[], &model);
     let options = Options { sensitivities: true, ..Options::default() };
     let start = std::time::Instant::now();
-    let (solution, model) = solve_family(&model, &mut family, &options, &mut |_| {}).unwrap();
+    let (solution, model) = solve_model(&model, &options, &mut |_| {}).unwrap();
     // Trying out every parameter makes 60 models of each, which took half a minute.
     assert!(start.elapsed().as_secs_f64() < 10.0, "{:?}", start.elapsed());
     let derivatives = solution.sensitivities.unwrap();

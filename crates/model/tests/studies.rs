@@ -5,8 +5,12 @@ use flexura_model::{
 };
 
 fn model(studies: Vec<StudyKind>) -> Model {
-    let parameter =
-        |name: &str, value: f64, unit: &str| Parameter { name: name.into(), value, unit: unit.into() };
+    let parameter = |name: &str, value: f64, unit: &str| Parameter {
+        name: name.into(),
+        value,
+        unit: unit.into(),
+        ..Parameter::default()
+    };
     let named = studies.into_iter().enumerate().map(|(i, kind)| Study { name: format!("s{i}"), kind });
     Model {
         parameters: vec![

@@ -56,7 +56,8 @@ impl Rules {
 
     /// Notes the formula of a value, or of a function of the variable.
     pub fn record(&self, path: &str, expression: &Expression, variable: Option<&str>) {
-        if expression.references().iter().all(|reference| reference.name() == variable && variable.is_some()) {
+        if expression.references().iter().all(|reference| reference.name() == variable && variable.is_some())
+        {
             return;
         }
         let Some(function) = self.open(expression, variable) else {

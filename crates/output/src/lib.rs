@@ -40,7 +40,7 @@ pub use svg::{
 pub use thin::shape_of;
 pub use trace::{
     BranchDocument, BucklingDocument, CriticalDocument, ModeDocument, MotionDocument, MotionsDocument,
-    PointDocument, Remake, ShapeDocument, TraceDocument, TraceView, TraceWorkDocument, buckling_document,
+    PointDocument, ShapeDocument, TraceDocument, TraceView, TraceWorkDocument, buckling_document,
     critical_csv, modes_csv, path_csv, path_header, path_row, trace_document,
 };
 pub use vtk::model_vtp;

@@ -15,7 +15,7 @@ use path::{CRITICAL, LENGTH, buckling, direction, model, point, study, trace};
 use serde_json::Value;
 
 fn view<'a>(model: &'a Model, study: &'a TraceStudy, trace: &'a Trace) -> TraceView<'a> {
-    TraceView::new(model, study, trace, &mut |_| None)
+    TraceView::new(model, study, trace)
 }
 
 fn with_view<T>(trace: &Trace, then: impl FnOnce(&TraceView<'_>) -> T) -> T {
@@ -133,21 +133,35 @@ fn a_number_that_is_none_is_refused_by_its_place() {
 
 #[test]
 fn the_state_is_written_with_the_model_that_belongs_to_it() {
-    let (model, study, trace) = (model(), study(), trace());
-    let mut asked: Vec<Vec<(usize, f64)>> = Vec::new();
-    let view = TraceView::new(&model, &study, &trace, &mut |values| {
-        asked.push(values.to_vec());
-        let mut other = model.clone();
-        other.beams[0].name = format!("link at {}", values[0].1);
-        Some(other)
-    });
-    let document = to_json(&trace_document(&view).unwrap()).unwrap();
-    let document: Value = serde_json::from_str(&document).unwrap();
-    assert!(document["branches"][0]["points"][2]["beams"][format!("link at {CRITICAL}")].is_object());
-    drop(view);
-    // Of branches the traced parameter alone, of the critical curve both; only where a state is kept.
-    assert_eq!(asked.len(), 4 + 4 + 2 + 1);
-    assert_eq!(asked.last().unwrap(), &[(0, 18.0), (1, 0.5)]);
+    let (plain, study, trace) = (model(), study(), trace());
+    let mut model = plain.clone();
+    model.bind("material.steel.young", "1e9*(push + 3)*slope").unwrap();
+    let document = |model: &Model| -> Value {
+        let view = TraceView::new(model, &study, &trace);
+        serde_json::from_str(&to_json(&trace_document(&view).unwrap()).unwrap()).unwrap()
+    };
+    let (bound, unbound) = (document(&model), document(&plain));
+    let largest = |point: &Value| {
+        let strain = point["beams"]["link"]["strain"].as_array()?;
+        Some(strain.iter().map(|value| value.as_f64().unwrap()).fold(0.0, f64::max))
+    };
+    let mut compared = 0;
+    let branches = (0..2).map(|i| (format!("/branches/{i}/points"), 1.0));
+    // Of branches the traced parameter alone changes, of the critical curve both.
+    for (place, slope) in branches.chain([("/critical/points".to_string(), 0.5)]) {
+        let [ours, theirs] = [&bound, &unbound].map(|all| all.pointer(&place).unwrap().as_array().unwrap());
+        for (a, b) in ours.iter().zip(theirs) {
+            let (Some(ours), Some(theirs)) = (largest(a), largest(b)) else { continue };
+            if a.get("second_parameter").is_some_and(|second| *second != slope) {
+                continue;
+            }
+            let push = a["parameter"].as_f64().unwrap();
+            let expected = theirs * 207e9 / (1e9 * (push + 3.0) * slope);
+            assert!((ours - expected).abs() <= 1e-12 * expected.abs(), "{place}: {ours} for {expected}");
+            compared += 1;
+        }
+    }
+    assert!(compared >= 3, "{compared}");
 }
 
 #[test]

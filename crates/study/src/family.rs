@@ -1,7 +1,9 @@
 //! A model for every value of its parameters.
+//!
+//! A model makes the others itself. A study takes another family where numbers change in a way that no formula says.
 
 use flexura_equilibrium::ProblemError;
-use flexura_model::Model;
+use flexura_model::{Binding, Issue, Model, Part};
 
 /// Makes the model again with other values of some parameters: position in [`Model::parameters`] and value (SI).
 /// Parameters that are not mentioned keep the value that they have in the model at hand.
@@ -12,6 +14,11 @@ pub trait Family {
     /// The values make no sound model: a length that is negative, say.
     fn model(&mut self, values: &[(usize, f64)]) -> Result<Model, ProblemError>;
 
+    /// Is it certain that only loads and drives of joints hang on this parameter, and these linearly?
+    fn is_line(&mut self, _parameter: usize) -> bool {
+        false
+    }
+
     /// May the model depend on this parameter? Where it does not for certain, nothing has to be tried out.
     fn depends_on(&mut self, _parameter: usize) -> bool {
         true
@@ -21,6 +28,46 @@ pub trait Family {
 impl<F: FnMut(&[(usize, f64)]) -> Result<Model, ProblemError>> Family for F {
     fn model(&mut self, values: &[(usize, f64)]) -> Result<Model, ProblemError> {
         self(values)
+    }
+}
+
+/// The models that a model's own parameters make, by [`Model::at`]: exact, without a text.
+pub struct ModelFamily<'m> {
+    model: &'m Model,
+}
+
+impl<'m> ModelFamily<'m> {
+    /// The family of a model.
+    pub fn new(model: &'m Model) -> Self {
+        Self { model }
+    }
+}
+
+impl Family for ModelFamily<'_> {
+    fn model(&mut self, values: &[(usize, f64)]) -> Result<Model, ProblemError> {
+        let unsound = |issue: Issue| {
+            let first = values.first().and_then(|(position, _)| self.model.parameters.get(*position));
+            ProblemError::new(
+                format!("parameter.{}", first.map_or("", |parameter| parameter.name.as_str())),
+                format!("other values make no sound model: {}", issue.message),
+                "choose another guess or a range",
+            )
+        };
+        let model = self.model.at(values).map_err(unsound)?;
+        match model.validate_mechanism().into_iter().next() {
+            Some(issue) => Err(unsound(issue)),
+            None => Ok(model),
+        }
+    }
+
+    fn is_line(&mut self, parameter: usize) -> bool {
+        let loads = |binding: &&Binding| matches!(binding.part, Part::Load | Part::Drive);
+        let moved = self.model.moved_by(parameter);
+        moved.is_some_and(|moved| moved.iter().all(loads)) && self.model.is_linear_in(parameter)
+    }
+
+    fn depends_on(&mut self, parameter: usize) -> bool {
+        self.model.depends_on(parameter)
     }
 }
 

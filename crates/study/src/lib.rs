@@ -7,18 +7,19 @@ mod motion;
 mod search;
 mod sensitivity;
 mod settle;
+mod slope;
 mod solve;
 mod trace;
 mod way;
 
 pub use ending::Ending;
-pub use family::Family;
+pub use family::{Family, ModelFamily};
 pub use flexura_equilibrium::{Census, Equilibrium, Interrupt, ProblemError};
-pub use motion::{MotionProgress, inverse_dynamics};
+pub use motion::{MotionProgress, inverse_dynamics, inverse_dynamics_family};
 pub use search::equilibria;
 pub use sensitivity::SensitivityError;
-pub use solve::{Options, Outcome, Prepared, Progress, solve, solve_family};
-pub use trace::{TraceProgress, buckle, trace};
+pub use solve::{Options, Outcome, Prepared, Progress, solve, solve_family, solve_model};
+pub use trace::{TraceProgress, buckle, buckle_family, trace, trace_family};
 
 use flexura_model::Model;
 

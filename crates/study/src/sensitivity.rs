@@ -3,14 +3,14 @@
 //! The equilibrium r(x, p) = 0 moves with a parameter by `dx/dp = -J⁻¹ ∂r/∂p`, J factorised once. The load, geometry,
 //! material or drive behind p enters r through sections, rest shapes and places, so ∂r/∂p is the derivative
 //! of the residual at a standing state, and with the direction (dx/dp, 1) an output is a function of one number whose
-//! derivative at zero is wanted. Both are taken by central differences of order six, whose step is shortened
-//! until two of them agree; no equilibrium is solved again. What is left of difference and round-off is about 1e-11 of
-//! the derivative.
+//! derivative at zero is wanted. No equilibrium is solved again; the differences are those of `slope.rs`. What is left of them is
+//! about 1e-11 of the derivative.
 
 use crate::Prepared;
 use crate::family::{Family, SMALL, size_of};
+use crate::slope::Slope;
 use crate::solve::What;
-use flexura_equilibrium::{CENTRAL, ProblemError};
+use flexura_equilibrium::ProblemError;
 use flexura_model::Model;
 use flexura_nonlinear::{Breakdown, System};
 use flexura_post::{OutputValue, PostError};
@@ -19,10 +19,11 @@ use flexura_spatial::{Twist, Vector3};
 use nalgebra::{DMatrix, DVector};
 
 /// First relative step of the differences, and by how much the next ones are shorter.
-const FIRST: f64 = 4e-3;
+const FIRST: f64 = 2e-3;
 const SHORTER: f64 = 0.25;
-/// Relative difference of two estimates that is good enough, and how many are tried.
-const AGREED: f64 = 1e-11;
+/// Relative difference of the orders four and six that is good enough: the sixth is then wrong by some 1e-12. How many steps are
+/// tried.
+const AGREED: f64 = 1e-8;
 const TRIES: usize = 5;
 /// Parameters that a warning names.
 const TOLD: usize = 5;
@@ -149,33 +150,6 @@ impl Prepared {
         Ok(values)
     }
 
-    /// The step of the state per unit of a parameter, `-J⁻¹ ∂r/∂p`, with the tangent last factorised, by differences of
-    /// order six with the step `h`.
-    pub(crate) fn state_slope(
-        &mut self,
-        family: &mut dyn Family,
-        parameter: usize,
-        value: f64,
-        h: f64,
-    ) -> Result<Vec<f64>, SensitivityError> {
-        let mut kept = Vec::new();
-        self.problem.store(&mut kept);
-        let mut sum = vec![0.0; self.problem.unknowns()];
-        let mut step = sum.clone();
-        for (factor, weight) in CENTRAL {
-            let law =
-                self.problem.neighbour(&family.model(&self.values_with(parameter, value + factor * h))?)?;
-            let own = self.problem.exchange(law);
-            let outcome = self.problem.residual();
-            self.problem.newton_step(&mut step);
-            self.problem.exchange(own);
-            self.problem.restore(&kept);
-            outcome?;
-            sum.iter_mut().zip(&step).for_each(|(s, d)| *s += weight / h * d);
-        }
-        Ok(sum)
-    }
-
     /// Derivatives of all outputs and of all body poses with respect to parameters, at the present equilibrium. Of an
     /// inverse problem only the given parameters count: the unknown ones move with them so that the targets are kept.
     ///
@@ -266,74 +240,29 @@ impl Prepared {
         value: f64,
         size: f64,
     ) -> Result<(Vec<Option<f64>>, Vec<f64>), SensitivityError> {
-        let mut kept = Vec::new();
-        self.problem.store(&mut kept);
         let mut h = FIRST * size;
-        let mut best: Vec<Estimate> = Vec::new();
+        let mut best: Vec<Option<Slope>> = Vec::new();
         let mut along = Vec::new();
-        for _ in 0..TRIES {
-            self.problem.linearise()?;
-            along = self.state_slope(family, parameter, value, h)?;
-            let mut sum: Vec<Option<(f64, f64)>> = Vec::new();
-            for (factor, weight) in CENTRAL {
-                let law = self
-                    .problem
-                    .neighbour(&family.model(&self.values_with(parameter, value + factor * h))?)?;
-                let own = self.problem.exchange(law);
-                let step: Vec<f64> = along.iter().map(|v| v * factor * h).collect();
-                self.problem.retract(&step);
-                let outputs = self.outputs_here();
-                self.problem.exchange(own);
-                self.problem.restore(&kept);
-                let outputs = outputs?;
-                sum.resize(outputs.len(), Some((0.0, 0.0)));
-                for (sum, y) in sum.iter_mut().zip(&outputs) {
-                    *sum =
-                        sum.zip(*y).map(|((slope, level), y)| (slope + weight / h * y, level.max(y.abs())));
+        for attempt in 0..TRIES {
+            // What was read off may have factorised other tangents.
+            if attempt == 0 || self.asks_for_tangents() {
+                self.problem.linearise()?;
+            }
+            let mut beside = self.beside_of(family, parameter, value, h)?;
+            along = self.state_slope_of(&mut beside)?;
+            let slopes = self.slopes_of(&mut beside, &along, 1e-13 / size, Self::outputs_here)?;
+            if attempt == 0 {
+                best = slopes;
+            } else {
+                for (best, slope) in best.iter_mut().zip(slopes) {
+                    *best = best.zip(slope).map(|(old, new)| if new.apart < old.apart { new } else { old });
                 }
             }
-            best.resize(sum.len(), Estimate::default());
-            for (estimate, sum) in best.iter_mut().zip(&sum) {
-                match sum {
-                    Some((slope, level)) => estimate.take(*slope, 1e-13 * level / size),
-                    None => *estimate = Estimate::default(),
-                }
-            }
-            if best.iter().all(|estimate| estimate.apart < AGREED) {
+            if best.iter().flatten().all(|slope| slope.apart < AGREED) {
                 break;
             }
             h *= SHORTER;
         }
-        Ok((best.iter().map(|estimate| estimate.last.map(|_| estimate.slope)).collect(), along))
-    }
-}
-
-/// The best of several estimates of one derivative: where two that follow each other are nearest.
-#[derive(Clone, Copy, Debug)]
-struct Estimate {
-    slope: f64,
-    last: Option<f64>,
-    apart: f64,
-}
-
-impl Default for Estimate {
-    fn default() -> Self {
-        Self { slope: 0.0, last: None, apart: f64::INFINITY }
-    }
-}
-
-impl Estimate {
-    /// One more; what is below `noise` counts as nothing.
-    fn take(&mut self, slope: f64, noise: f64) {
-        if let Some(last) = self.last {
-            let apart =
-                ((slope - last).abs() - noise).max(0.0) / slope.abs().max(last.abs()).max(f64::MIN_POSITIVE);
-            if apart < self.apart {
-                (self.slope, self.apart) = (slope, apart);
-            }
-        } else {
-            self.slope = slope;
-        }
-        self.last = Some(slope);
+        Ok((best.iter().map(|slope| slope.map(|slope| slope.value)).collect(), along))
     }
 }

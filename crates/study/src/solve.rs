@@ -1,7 +1,7 @@
 //! The equilibrium reached from rest under proportional load.
 
 use crate::ending::Ending;
-use crate::family::Family;
+use crate::family::{Family, ModelFamily};
 use crate::inverse::Border;
 use crate::sensitivity;
 use crate::settle;
@@ -432,24 +432,28 @@ pub(crate) fn tangent_targets(model: &Model) -> Vec<ProbeTarget> {
 /// that was reached.
 ///
 /// # Errors
-/// A model that describes no solvable mechanism; an inverse problem, which needs [`solve_family`].
+/// A model that describes no solvable mechanism.
 pub fn solve(
     model: &Model,
     options: &Options,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Solution, ProblemError> {
-    let mut fixed = |_: &[(usize, f64)]| -> Result<Model, ProblemError> {
-        Err(ProblemError::new(
-            "unknown",
-            "the model cannot be made again with other values of its parameters",
-            "solve it as a family: from its file, or with a function that makes it",
-        ))
-    };
-    Ok(solve_family(model, &mut fixed, options, progress)?.0)
+    Ok(solve_model(model, options, progress)?.0)
 }
 
-/// [`solve`] of a model whose parameters can be given other values: for inverse problems and for sensitivities. The
-/// second of the pair is the model with the values found.
+/// [`solve`] with the model that belongs to the solution: that with the values that were found for its unknown parameters.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_model(
+    model: &Model,
+    options: &Options,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<(Solution, Model), ProblemError> {
+    solve_family(model, &mut ModelFamily::new(model), options, progress)
+}
+
+/// [`solve_model`] where something else than the model's own rules makes the models with other values of its parameters.
 ///
 /// # Errors
 /// A model that describes no solvable mechanism.

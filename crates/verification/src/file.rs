@@ -2,7 +2,7 @@
 
 use flexura::modelfile::Document;
 use flexura::post::{self, Evaluation, OutputValue};
-use flexura::{FileFamily, Options, inverse_dynamics, solve_family};
+use flexura::{Options, inverse_dynamics, solve_model};
 use flexura_model::{InverseDynamicsStudy, Model, MotionLaw, Sampling};
 use flexura_solution::{InverseDynamics, Status};
 
@@ -44,9 +44,8 @@ impl File {
     pub fn solve_with(&self, values: &[(&str, f64)], options: &Options) -> Result<Answer, String> {
         let overrides = Self::overrides(values);
         let model = self.document.model(&overrides).map_err(|report| report.render(false))?;
-        let mut family = FileFamily::new(&self.document, &overrides, &model);
         let (solution, model) =
-            solve_family(&model, &mut family, options, &mut |_| {}).map_err(|error| error.to_string())?;
+            solve_model(&model, options, &mut |_| {}).map_err(|error| error.to_string())?;
         if solution.status != Status::Converged {
             let reason = solution.reason.as_deref().unwrap_or("no reason given");
             return Err(format!("{} at {values:?}: {reason}", solution.status.word()));
@@ -71,8 +70,7 @@ impl File {
         let parameter =
             model.parameters.iter().position(|p| p.name == parameter).ok_or("no such parameter")?;
         let study = InverseDynamicsStudy { parameter, law, sampling };
-        let mut family = FileFamily::new(&self.document, &overrides, &model);
-        let motion = inverse_dynamics(&model, &mut family, &study, &Options::default(), &mut |_| {})
+        let motion = inverse_dynamics(&model, &study, &Options::default(), &mut |_| {})
             .map_err(|error| error.to_string())?;
         match motion.status {
             Status::Converged => Ok(motion),

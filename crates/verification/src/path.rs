@@ -2,7 +2,7 @@
 
 use crate::Row;
 use crate::file::File;
-use flexura::{FileFamily, Options};
+use flexura::Options;
 use flexura_model::{CriticalStudy, Model, Stop, Target, TraceStudy};
 use flexura_solution::{Branch, BranchOrigin, CriticalCurve, PointKind, Status, Trace, TracePoint};
 
@@ -106,10 +106,9 @@ impl File {
         let overrides = Self::overrides(values);
         let model = self.document.model(&overrides).map_err(|report| report.render(false))?;
         let study = path.study(&model)?;
-        let mut family = FileFamily::new(&self.document, &overrides, &model);
         let options = Options { tolerance, ..Options::default() };
-        let trace = flexura::trace(&model, &mut family, &study, &options, &mut |_| {})
-            .map_err(|error| error.to_string())?;
+        let trace =
+            flexura::trace(&model, &study, &options, &mut |_| {}).map_err(|error| error.to_string())?;
         if trace.status != Status::Converged {
             let reason = trace.reason.as_deref().unwrap_or("no reason given");
             return Err(format!("{} at {values:?}: {reason}", trace.status.word()));

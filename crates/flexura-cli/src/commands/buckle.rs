@@ -5,11 +5,11 @@ use crate::answer::{Answer, StudyDocument, Task, unwritable};
 use crate::arguments::BuckleArguments;
 use crate::buckling_summary;
 use crate::failure::Failure;
+use flexura::Buckled;
 use flexura::model::{BuckleStudy, StudyKind};
 use flexura::modelfile::{Document, Flag};
 use flexura::output::{OutputError, modes_csv, modes_svg};
 use flexura::solution::Solution;
-use flexura::{Buckled, FileFamily};
 
 pub fn run(arguments: &BuckleArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
@@ -30,9 +30,8 @@ fn flags(arguments: &BuckleArguments) -> Vec<Flag> {
 }
 
 /// Critical loads of a file's model.
-pub fn study(task: &Task<'_>, name: &str, study: &BuckleStudy) -> Result<Answer, Failure> {
-    let mut family = FileFamily::new(&task.file, task.overrides, &task.model);
-    let buckled = Buckled::new(&task.model, &mut family, study, &task.options)
+pub fn study(task: &Task, name: &str, study: &BuckleStudy) -> Result<Answer, Failure> {
+    let buckled = Buckled::new(&task.model, study, &task.options)
         .map_err(|error| study_failure(&task.file, name, &error))?;
     let (model, buckling) = (&buckled.model, &buckled.buckling);
 

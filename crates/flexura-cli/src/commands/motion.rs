@@ -6,16 +6,15 @@ use crate::failure::Failure;
 use crate::motion_summary;
 use crate::progress::MotionMeter;
 use flexura::model::InverseDynamicsStudy;
+use flexura::motion_view;
 use flexura::output::{OutputError, motion_csv, motion_document, motion_svg};
 use flexura::solution::InverseDynamics;
-use flexura::{FileFamily, motion_view};
 
 /// A motion in time of a file's model.
-pub fn study(task: &Task<'_>, name: &str, study: &InverseDynamicsStudy) -> Result<Answer, Failure> {
+pub fn study(task: &Task, name: &str, study: &InverseDynamicsStudy) -> Result<Answer, Failure> {
     let model = &task.model;
-    let mut family = FileFamily::new(&task.file, task.overrides, model);
     let mut meter = MotionMeter::new(task.is_quiet);
-    let moved = flexura::inverse_dynamics(model, &mut family, study, &task.options, &mut |progress| {
+    let moved = flexura::inverse_dynamics(model, study, &task.options, &mut |progress| {
         meter.update(progress);
     });
     meter.finish();

@@ -80,7 +80,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
 }
 
 /// The study of that name, or all of them.
-fn chosen<'t>(task: &'t Task<'_>, name: Option<&str>) -> Result<Vec<&'t Study>, Failure> {
+fn chosen<'t>(task: &'t Task, name: Option<&str>) -> Result<Vec<&'t Study>, Failure> {
     let Some(name) = name else {
         if task.model.studies.is_empty() {
             let hint = "write a table such as [study.path] with `kind = \"trace\"`, or use `flexura solve`, `trace` or `buckle`";
@@ -96,7 +96,7 @@ fn chosen<'t>(task: &'t Task<'_>, name: Option<&str>) -> Result<Vec<&'t Study>, 
     Ok(vec![study])
 }
 
-fn answer(task: &Task<'_>, study: &Study, folder: Option<&Path>) -> Result<Answer, Failure> {
+fn answer(task: &Task, study: &Study, folder: Option<&Path>) -> Result<Answer, Failure> {
     match &study.kind {
         StudyKind::Solve => solve::study(task, None),
         StudyKind::Trace(trace) => trace::study(task, &study.name, trace, folder),

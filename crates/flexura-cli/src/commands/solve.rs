@@ -14,7 +14,7 @@ use flexura::output::{
 };
 use flexura::post::{Evaluation, Scales, evaluate_each, large_strain, summarise};
 use flexura::solution::{Solution, Status};
-use flexura::{FileFamily, Options, equilibria, place, solve_family};
+use flexura::{Options, equilibria, place, solve_model};
 
 /// Positions that differ by less than this part of the mechanism's size belong to the same equilibrium.
 const SAME: f64 = 1e-6;
@@ -30,11 +30,10 @@ pub fn run(arguments: &SolveArguments) -> Result<(), Failure> {
 }
 
 /// The equilibrium of a file's model, and others if they are looked for: how many random states, and their seed.
-pub fn study(task: &Task<'_>, guesses: Option<(usize, u64)>) -> Result<Answer, Failure> {
+pub fn study(task: &Task, guesses: Option<(usize, u64)>) -> Result<Answer, Failure> {
     let (file, options) = (&task.file, &task.options);
-    let mut family = FileFamily::new(file, task.overrides, &task.model);
     let mut meter = Meter::new(task.is_quiet);
-    let solved = solve_family(&task.model, &mut family, options, &mut |progress| meter.update(progress));
+    let solved = solve_model(&task.model, options, &mut |progress| meter.update(progress));
     meter.finish();
     let (mut solution, model) = solved.map_err(|error| problem_failure(file, &error))?;
     let evaluation = evaluate_each(&model, &solution);
@@ -80,7 +79,7 @@ pub fn study(task: &Task<'_>, guesses: Option<(usize, u64)>) -> Result<Answer, F
     Ok(Answer { document, files, summary, without_value, warnings, failure, growing: None })
 }
 
-fn add_options(arguments: &SolveArguments, task: &mut Task<'_>) -> Result<(), Failure> {
+fn add_options(arguments: &SolveArguments, task: &mut Task) -> Result<(), Failure> {
     let options = &mut task.options;
     options.sensitivities = arguments.sensitivity;
     for text in &arguments.compliance {

@@ -7,13 +7,14 @@ use crate::failure::Failure;
 use crate::files::{self, Growing};
 use crate::progress::TraceMeter;
 use crate::trace_summary;
+use flexura::TraceProgress;
 use flexura::model::{Model, StudyKind, TraceStudy};
 use flexura::modelfile::{Document, Flag};
+use flexura::output::TraceView;
 use flexura::output::{
     OutputError, critical_csv, diagram_svg, path_csv, path_header, path_row, shapes_svg, trace_document,
 };
 use flexura::solution::Trace;
-use flexura::{FileFamily, TraceProgress, trace_view};
 use std::path::Path;
 
 pub fn run(arguments: &TraceArguments) -> Result<(), Failure> {
@@ -53,17 +54,11 @@ fn flags(arguments: &TraceArguments) -> Vec<Flag> {
 }
 
 /// A path of equilibria of a file's model; while it is followed its points stand in `path.csv.partial` of the folder.
-pub fn study(
-    task: &Task<'_>,
-    name: &str,
-    study: &TraceStudy,
-    folder: Option<&Path>,
-) -> Result<Answer, Failure> {
+pub fn study(task: &Task, name: &str, study: &TraceStudy, folder: Option<&Path>) -> Result<Answer, Failure> {
     let model = &task.model;
-    let mut family = FileFamily::new(&task.file, task.overrides, model);
     let mut meter = TraceMeter::new(task.is_quiet, &model.parameters[study.parameter]);
     let mut growing = folder.map(|folder| begin(folder, model, study)).transpose()?;
-    let traced = flexura::trace(model, &mut family, study, &task.options, &mut |progress| {
+    let traced = flexura::trace(model, study, &task.options, &mut |progress| {
         meter.update(&progress);
         if let Some(growing) = &mut growing {
             growing.add(&rows(model, study, &progress));
@@ -82,7 +77,7 @@ pub fn study(
     let mut document = None;
     let mut files = Vec::new();
     if task.wants_document() {
-        let view = trace_view(model, study, &trace, &mut family);
+        let view = TraceView::new(model, study, &trace);
         document = Some(StudyDocument::Trace(Box::new(trace_document(&view).map_err(refused)?)));
         if task.wants_files() {
             files.push(("path.csv", path_csv(&view).map_err(refused)?));

@@ -9,7 +9,7 @@
 use flexura::model::StudyKind;
 use flexura::modelfile::Document;
 use flexura::solution::Status;
-use flexura::{FileFamily, Moved, Options, ProblemError, inverse_dynamics};
+use flexura::{Moved, Options, ProblemError, inverse_dynamics};
 
 /// The text of a bundled model.
 pub fn text(name: &str) -> String {
@@ -37,7 +37,6 @@ pub fn tried(text: &str, overrides: &[(&str, &str)], study: &str) -> Result<Move
     let model = document.model(&overrides).unwrap_or_else(|report| panic!("{report}"));
     let named = model.studies.iter().find(|s| s.name == study).unwrap();
     let StudyKind::InverseDynamics(study) = named.kind.clone() else { panic!("no motion") };
-    let mut family = FileFamily::new(&document, &overrides, &model);
-    let motion = inverse_dynamics(&model, &mut family, &study, &Options::default(), &mut |_| {})?;
+    let motion = inverse_dynamics(&model, &study, &Options::default(), &mut |_| {})?;
     Ok(Moved { model, study, motion })
 }

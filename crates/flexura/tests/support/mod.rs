@@ -10,7 +10,7 @@
 use flexura::model::{Model, StudyKind, TraceStudy};
 use flexura::modelfile::Document;
 use flexura::solution::{Branch, Crossing, PointKind, Status, Trace, TracePoint};
-use flexura::{FileFamily, Options, trace};
+use flexura::{Options, trace};
 
 /// A model, its first trace, and what came out.
 pub struct Run {
@@ -42,10 +42,8 @@ pub fn run(text: &str, overrides: &[(&str, &str)], tolerance: f64) -> Run {
             _ => None,
         })
         .unwrap();
-    let mut family = FileFamily::new(&document, &overrides, &model);
     let options = Options { tolerance, ..Options::default() };
-    let trace =
-        trace(&model, &mut family, &study, &options, &mut |_| {}).unwrap_or_else(|e| panic!("{}", e.message));
+    let trace = trace(&model, &study, &options, &mut |_| {}).unwrap_or_else(|e| panic!("{}", e.message));
     Run { model, study, trace }
 }
 

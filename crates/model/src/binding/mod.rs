@@ -11,6 +11,7 @@ mod visit;
 mod visit_joint;
 
 pub use rule::{ALMOST_RIGHT, Rule};
+pub use visit::Part;
 
 use crate::{Issue, Model, Parameter};
 use flexura_expression::Formula;
@@ -36,6 +37,8 @@ pub struct Binding {
     pub path: Arc<str>,
     /// How its value follows from the parameters.
     pub rule: Arc<Rule>,
+    /// What the number is to the equations.
+    pub part: Part,
     /// Number of the item in the walk over the model.
     place: usize,
 }
@@ -61,10 +64,15 @@ struct Finder<'r> {
     lengths: Vec<usize>,
     /// Where `[0]` stands that the file may leave out.
     only: Option<usize>,
+    part: Part,
     place: usize,
 }
 
 impl Visit for Finder<'_> {
+    fn part(&mut self, part: Part) {
+        self.part = part;
+    }
+
     fn enter(&mut self, step: Step<'_>) {
         use std::fmt::Write;
         self.lengths.push(self.path.len());
@@ -96,7 +104,12 @@ impl Visit for Finder<'_> {
             rule = self.rules.get(&path);
         }
         if let Some(rule) = rule.filter(|rule| fits(&item, rule)) {
-            self.found.push(Binding { path: path.into(), rule: rule.clone(), place: self.place });
+            self.found.push(Binding {
+                path: path.into(),
+                rule: rule.clone(),
+                part: self.part,
+                place: self.place,
+            });
         }
         self.place += 1;
     }
@@ -132,7 +145,8 @@ impl Model {
 
     fn find(&mut self, rules: &BTreeMap<String, Arc<Rule>>) -> Vec<Binding> {
         let (path, lengths) = (String::new(), Vec::new());
-        let mut finder = Finder { rules, found: Vec::new(), path, lengths, only: None, place: 0 };
+        let mut finder =
+            Finder { rules, found: Vec::new(), path, lengths, only: None, part: Part::Other, place: 0 };
         self.visit(&mut finder);
         finder.found
     }
@@ -204,44 +218,66 @@ impl Model {
         self.parameters.iter().position(|parameter| parameter.name == name)
     }
 
-    /// A text as a formula over the parameters.
+    /// A text as a formula over the parameters, its dimensions checked.
     fn formula(&self, path: &str, text: &str) -> Result<Formula, Issue> {
-        use flexura_expression::{Binding, Expression, ExpressionError, Kind};
-        let lowered = Expression::parse(text).and_then(|expression| {
-            expression.lower(&mut |reference| {
-                let position = reference.name().and_then(|name| self.parameter(name));
-                position.map(|slot| Binding::Slot(slot, Kind::Plain)).ok_or_else(|| {
-                    let shown = text.get(reference.span.clone()).unwrap_or_default();
-                    ExpressionError::new(format!("there is no parameter `{shown}`"), reference.span.clone())
-                })
-            })
-        });
-        lowered.map(flexura_expression::Lowered::formula).map_err(|error| Issue {
+        use flexura_expression::{Expression, ExpressionError, Function, Kind, Open, Quantity};
+        let dimension = |unit: &str| {
+            let one = Expression::parse(&format!("1 {unit}")).ok()?;
+            one.evaluate(&mut |_| Err(ExpressionError::new(String::new(), 0..0))).ok()
+        };
+        let quantity = |parameter: &Parameter| Quantity {
+            value: parameter.value,
+            kind: match dimension(&parameter.unit) {
+                Some(one) if !parameter.unit.is_empty() => one.kind,
+                _ => Kind::Plain,
+            },
+        };
+        let issue = |error: ExpressionError| Issue {
             path: path.to_string(),
             message: error.message,
             hint: error.hint,
+        };
+        let expression = Expression::parse(text).map_err(issue)?;
+        let checked = expression.evaluate(&mut |reference| {
+            let position = reference.name().and_then(|name| self.parameter(name));
+            position.map(|position| quantity(&self.parameters[position])).ok_or_else(|| {
+                let shown = text.get(reference.span.clone()).unwrap_or_default();
+                ExpressionError::new(format!("there is no parameter `{shown}`"), reference.span.clone())
+            })
+        });
+        checked.map_err(issue)?;
+        let open = expression.open(&mut |reference| self.parameter(reference.name()?).map(Open::Slot));
+        open.map(Function::formula).ok_or_else(|| Issue {
+            path: path.to_string(),
+            message: "the expression holds too much at once".to_string(),
+            hint: Some("put parts of it into parameters".to_string()),
         })
     }
 }
 
 /// Each behind those by which it is written. A circle, which nothing that reads a model lets pass, stays in the order of the list.
 fn order(parameters: &[Parameter]) -> Vec<usize> {
-    let mut placed = vec![false; parameters.len()];
-    let mut order = Vec::with_capacity(parameters.len());
-    while order.len() < parameters.len() {
-        let before = order.len();
-        for (i, parameter) in parameters.iter().enumerate() {
-            let ready = |slot: usize| placed.get(slot).copied().unwrap_or(true);
-            if !placed[i] && parameter.formula.as_ref().is_none_or(|formula| formula.slots().all(ready)) {
-                placed[i] = true;
-                order.push(i);
-            }
-        }
-        if order.len() == before {
-            order.extend((0..parameters.len()).filter(|i| !placed[*i]));
-            break;
+    let needs = |i: usize| parameters[i].formula.iter().flat_map(|formula| formula.slots());
+    let mut users: Vec<Vec<usize>> = vec![Vec::new(); parameters.len()];
+    let mut open = vec![0usize; parameters.len()];
+    for i in 0..parameters.len() {
+        for needed in needs(i).filter(|needed| *needed < parameters.len()) {
+            users[needed].push(i);
+            open[i] += 1;
         }
     }
+    let mut order: Vec<usize> = (0..parameters.len()).filter(|i| open[*i] == 0).collect();
+    let mut next = 0;
+    while next < order.len() {
+        for user in &users[order[next]] {
+            open[*user] -= 1;
+            if open[*user] == 0 {
+                order.push(*user);
+            }
+        }
+        next += 1;
+    }
+    order.extend((0..parameters.len()).filter(|i| open[*i] > 0));
     order
 }
 

@@ -104,7 +104,8 @@ impl Rule {
                 let cosine = axis.dot(&near);
                 if cosine.abs() > ALMOST_RIGHT {
                     let angle = cosine.clamp(-1.0, 1.0).acos().to_degrees();
-                    let message = format!("must be at right angles to `axis`, but the angle is {angle:.1} deg");
+                    let message =
+                        format!("must be at right angles to `axis`, but the angle is {angle:.1} deg");
                     return Err((message, "let both axes follow the same parameter"));
                 }
                 Value::Vector((near - axis * cosine).normalize())
@@ -116,7 +117,9 @@ impl Rule {
                 let rpy = vector(formulas);
                 number(rpy.sum())?;
                 Value::Rotation(
-                    exp(&(Vector3::z() * rpy.z)) * exp(&(Vector3::y() * rpy.y)) * exp(&(Vector3::x() * rpy.x)),
+                    exp(&(Vector3::z() * rpy.z))
+                        * exp(&(Vector3::y() * rpy.y))
+                        * exp(&(Vector3::x() * rpy.x)),
                 )
             }
             Rule::Quaternion(formulas) => {
@@ -170,7 +173,10 @@ const ROUNDED: f64 = 1e-3;
 
 fn number(value: f64) -> Result<f64, Wrong> {
     if value.is_nan() {
-        return Err(("the expression gives no finite number".to_string(), "choose other values of its parameters"));
+        return Err((
+            "the expression gives no finite number".to_string(),
+            "choose other values of its parameters",
+        ));
     }
     Ok(value)
 }

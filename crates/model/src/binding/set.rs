@@ -3,7 +3,7 @@
 use super::rule::{Value, Wrong};
 use super::visit::{Item, Step, Visit};
 use super::{Binding, Bindings, Rule, order};
-use crate::{Issue, Model};
+use crate::{Issue, Model, Quantity};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -114,7 +114,9 @@ impl Model {
         let bindings = self.placed();
         let mut slots: Vec<f64> = self.parameters.iter().map(|parameter| parameter.value).collect();
         for position in &bindings.order {
-            let Some(formula) = self.parameters.get(*position).and_then(|p| p.formula.clone()) else { continue };
+            let Some(formula) = self.parameters.get(*position).and_then(|p| p.formula.clone()) else {
+                continue;
+            };
             let value = formula.evaluate(&slots);
             let parameter = &mut self.parameters[*position];
             if !value.is_finite() {
@@ -176,13 +178,21 @@ impl Model {
         moving
     }
 
-    /// Does anything of the mechanism hang on this parameter, directly or by others? What only outputs or studies refer to does
-    /// not count.
+    /// Does anything of the mechanism, its outputs or targets hang on this parameter, directly or by others?
     pub fn depends_on(&self, parameter: usize) -> bool {
         let moving = self.following(parameter);
         let is_moving = |slot: usize| moving.get(slot).copied().unwrap_or(false);
         self.parameters.iter().zip(&moving).any(|(parameter, moving)| *moving && parameter.is_structural)
             || self.bindings.iter().any(|binding| binding.rule.parameters().any(is_moving))
+            || self.read_by(&is_moving)
+    }
+
+    /// Does an output or a target read a parameter that moves?
+    fn read_by(&self, is_moving: &dyn Fn(usize) -> bool) -> bool {
+        let outputs = self.outputs.iter().chain(self.targets.iter().map(|target| &target.output));
+        outputs
+            .flat_map(|output| &output.probes)
+            .any(|probe| probe.quantity == Quantity::Parameter && is_moving(probe.component))
     }
 
     /// The rules that this parameter moves; None where a parameter on the way is structural.
@@ -214,7 +224,9 @@ impl Model {
             *own = 1.0;
         }
         for position in order(&self.parameters) {
-            if let Some(formula) = self.parameters[position].formula.as_ref().filter(|_| position != parameter) {
+            if let Some(formula) =
+                self.parameters[position].formula.as_ref().filter(|_| position != parameter)
+            {
                 rates[position] = formula.along(&slots, &rates)[1];
             }
         }

@@ -4,9 +4,9 @@
 
 use super::visit_joint::{joints, law};
 use crate::{
-    At, Attachment, Beam, Body, Cable, CableLaw, Coupling, Curve, Distributed, End, Foundation, FoundationLaw,
-    Guide, Load, LoadTarget, Material, Model, Mount, Notch, NotchShape, Obstacle, PointMass, Profile, Section,
-    SectionFrame, Shape, Spring, SpringLaw, Target, Tube, Tubes, Unknown, Wrap,
+    At, Attachment, Beam, Body, Cable, CableLaw, Coupling, Curve, Distributed, End, Foundation,
+    FoundationLaw, Guide, Load, LoadTarget, Material, Model, Mount, Notch, NotchShape, Obstacle, PointMass,
+    Profile, Section, SectionFrame, Shape, Spring, SpringLaw, Target, Tube, Tubes, Unknown, Wrap,
 };
 use flexura_expression::Function;
 use flexura_spatial::{Pose, UnitQuaternion, Vector3};
@@ -34,8 +34,22 @@ pub(crate) enum Step<'p> {
     Table(usize, bool),
 }
 
+/// What a number is to the equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// A force or moment of a point load.
+    Load,
+    /// What drives or loads a coordinate of a joint, or where its stiffness is relaxed.
+    Drive,
+    /// Anything else: shapes, places, stiffnesses, laws.
+    Other,
+}
+
 /// What is done at each item.
 pub(crate) trait Visit {
+    /// What the next items are.
+    fn part(&mut self, _: Part) {}
+
     fn enter(&mut self, step: Step<'_>);
     fn leave(&mut self);
     /// At the end of the steps.
@@ -191,70 +205,70 @@ fn profiles<const N: usize>(v: &mut impl Visit, key: &'static str, list: &mut [P
 fn material(v: &mut impl Visit, material: &mut Material) {
     let Material { name, young, shear, density, yield_strength } = material;
     v.within(Step::Named("material", name), |v| {
-    number(v, "young", young);
-    number(v, "shear", shear);
-    optional(v, "density", density);
-    optional(v, "yield_strength", yield_strength);
+        number(v, "young", young);
+        number(v, "shear", shear);
+        optional(v, "density", density);
+        optional(v, "yield_strength", yield_strength);
     });
 }
 
 fn section(v: &mut impl Visit, Section { name, shape, plane_strain: _ }: &mut Section) {
     v.within(Step::Named("section", name), |v| {
-    let own = |v: &mut _, key, of: &mut Profile| profile(v, key, true, of);
-    match shape {
-        Shape::Rectangle { width, height } | Shape::Ellipse { width, height } => {
-            own(v, "width", width);
-            own(v, "height", height);
-        }
-        Shape::Circle { diameter } => own(v, "diameter", diameter),
-        Shape::Tube { outer_diameter, inner_diameter } => {
-            own(v, "outer_diameter", outer_diameter);
-            own(v, "inner_diameter", inner_diameter);
-        }
-        Shape::Stiffness { ea, gj, ei2, ei3, ga2, ga3, mass_per_length } => {
-            for (key, of) in [("EA", ea), ("GJ", gj), ("EI2", ei2), ("EI3", ei3)] {
-                own(v, key, of);
+        let own = |v: &mut _, key, of: &mut Profile| profile(v, key, true, of);
+        match shape {
+            Shape::Rectangle { width, height } | Shape::Ellipse { width, height } => {
+                own(v, "width", width);
+                own(v, "height", height);
             }
-            for (key, of) in [("GA2", ga2), ("GA3", ga3), ("mass_per_length", mass_per_length)] {
-                if let Some(of) = of {
+            Shape::Circle { diameter } => own(v, "diameter", diameter),
+            Shape::Tube { outer_diameter, inner_diameter } => {
+                own(v, "outer_diameter", outer_diameter);
+                own(v, "inner_diameter", inner_diameter);
+            }
+            Shape::Stiffness { ea, gj, ei2, ei3, ga2, ga3, mass_per_length } => {
+                for (key, of) in [("EA", ea), ("GJ", gj), ("EI2", ei2), ("EI3", ei3)] {
                     own(v, key, of);
                 }
-            }
-        }
-        Shape::StiffnessMatrix { matrix, mass_per_length } => {
-            v.within(Step::Key("matrix"), |v| {
-                for i in 0..6 {
-                    v.within(Step::Index(i), |v| {
-                        for j in 0..6 {
-                            v.at(Step::Index(j), Item::Number(&mut matrix[(i, j)]));
-                        }
-                    });
+                for (key, of) in [("GA2", ga2), ("GA3", ga3), ("mass_per_length", mass_per_length)] {
+                    if let Some(of) = of {
+                        own(v, key, of);
+                    }
                 }
-            });
-            if let Some(of) = mass_per_length {
-                own(v, "mass_per_length", of);
+            }
+            Shape::StiffnessMatrix { matrix, mass_per_length } => {
+                v.within(Step::Key("matrix"), |v| {
+                    for i in 0..6 {
+                        v.within(Step::Index(i), |v| {
+                            for j in 0..6 {
+                                v.at(Step::Index(j), Item::Number(&mut matrix[(i, j)]));
+                            }
+                        });
+                    }
+                });
+                if let Some(of) = mass_per_length {
+                    own(v, "mass_per_length", of);
+                }
             }
         }
-    }
     });
 }
 
 fn body(v: &mut impl Visit, body: &mut Body) {
     let Body { name, pose, mass, center_of_mass, inertia } = body;
     v.within(Step::Named("body", name), |v| {
-    numbers(v, "at", pose.position.iter_mut());
-    v.at(Step::Key("rotation"), Item::Rotation(&mut pose.rotation));
-    number(v, "mass", mass);
-    numbers(v, "center_of_mass", center_of_mass.iter_mut());
-    v.within(Step::Key("inertia"), |v| {
-        for i in 0..3 {
-            v.within(Step::Index(i), |v| {
-                for j in 0..3 {
-                    v.at(Step::Index(j), Item::Number(&mut inertia[(i, j)]));
-                }
-            });
-        }
-    });
+        numbers(v, "at", pose.position.iter_mut());
+        v.at(Step::Key("rotation"), Item::Rotation(&mut pose.rotation));
+        number(v, "mass", mass);
+        numbers(v, "center_of_mass", center_of_mass.iter_mut());
+        v.within(Step::Key("inertia"), |v| {
+            for i in 0..3 {
+                v.within(Step::Index(i), |v| {
+                    for j in 0..3 {
+                        v.at(Step::Index(j), Item::Number(&mut inertia[(i, j)]));
+                    }
+                });
+            }
+        });
     });
 }
 
@@ -272,43 +286,43 @@ fn beam(v: &mut impl Visit, beam: &mut Beam) {
         foundation: foundations,
     } = beam;
     v.within(Step::Named("beam", name), |v| {
-    match curve {
-        Curve::Straight { length } => number(v, "length", length),
-        other => v.within(Step::Key("curve"), |v| of_curve(v, other)),
-    }
-    v.within(Step::Key("frame"), |v| match frame {
-        SectionFrame::Natural => {}
-        SectionFrame::Frenet { offset } => number(v, "offset", offset),
-        SectionFrame::RotationMinimising { start, twist } => {
-            if let Some(start) = start {
-                direction(v, "start", start);
+        match curve {
+            Curve::Straight { length } => number(v, "length", length),
+            other => v.within(Step::Key("curve"), |v| of_curve(v, other)),
+        }
+        v.within(Step::Key("frame"), |v| match frame {
+            SectionFrame::Natural => {}
+            SectionFrame::Frenet { offset } => number(v, "offset", offset),
+            SectionFrame::RotationMinimising { start, twist } => {
+                if let Some(start) = start {
+                    direction(v, "start", start);
+                }
+                if let Some(twist) = twist {
+                    function(v, "twist", twist);
+                }
             }
-            if let Some(twist) = twist {
-                function(v, "twist", twist);
+            SectionFrame::Direction { along } => direction(v, "along", along),
+        });
+        for (key, end) in [("start", start), ("end", end)] {
+            if let Some(End { mount, placement, hold }) = end {
+                v.within(Step::Key(key), |v| {
+                    placed(v, mount, placement.as_mut());
+                    law(v, hold, "turning", Part::Other);
+                });
             }
         }
-        SectionFrame::Direction { along } => direction(v, "along", along),
-    });
-    for (key, end) in [("start", start), ("end", end)] {
-        if let Some(End { mount, placement, hold }) = end {
-            v.within(Step::Key(key), |v| {
-                placed(v, mount, placement.as_mut());
-                law(v, hold, "turning");
-            });
-        }
-    }
-    let only = loads.len() == 1;
-    v.within(Step::Key("distributed"), |v| {
-        for (i, load) in loads.iter_mut().enumerate() {
-            v.within(Step::Table(i, only), |v| distributed(v, load));
-        }
-    });
-    let only = foundations.len() == 1;
-    v.within(Step::Key("foundation"), |v| {
-        for (i, one) in foundations.iter_mut().enumerate() {
-            v.within(Step::Table(i, only), |v| foundation(v, one));
-        }
-    });
+        let only = loads.len() == 1;
+        v.within(Step::Key("distributed"), |v| {
+            for (i, load) in loads.iter_mut().enumerate() {
+                v.within(Step::Table(i, only), |v| distributed(v, load));
+            }
+        });
+        let only = foundations.len() == 1;
+        v.within(Step::Key("foundation"), |v| {
+            for (i, one) in foundations.iter_mut().enumerate() {
+                v.within(Step::Table(i, only), |v| foundation(v, one));
+            }
+        });
     });
 }
 
@@ -363,97 +377,100 @@ fn foundation(v: &mut impl Visit, foundation: &mut Foundation) {
 
 fn coupling(v: &mut impl Visit, Coupling { name, terms, offset }: &mut Coupling) {
     v.within(Step::Named("coupling", name), |v| {
-    numbers(v, "factor", terms.iter_mut().map(|term| &mut term.factor));
-    number(v, "offset", offset);
+        numbers(v, "factor", terms.iter_mut().map(|term| &mut term.factor));
+        number(v, "offset", offset);
     });
 }
 
 fn spring(v: &mut impl Visit, spring: &mut Spring) {
     let Spring { name, from, to, law, rest_length, size, wrap } = spring;
     v.within(Step::Named("spring", name), |v| {
-    attachment(v, "from", from);
-    attachment(v, "to", to);
-    match law {
-        SpringLaw::Linear { stiffness, tension_only: _ } => number(v, "stiffness", stiffness),
-        SpringLaw::Exponential { area, exponent, stress, form: _ } => {
-            number(v, "area", area);
-            number(v, "exponent", exponent);
-            number(v, "stress", stress);
-        }
-        SpringLaw::Toe { axial_stiffness, toe_strain } => {
-            number(v, "axial_stiffness", axial_stiffness);
-            number(v, "toe_strain", toe_strain);
-        }
-        SpringLaw::Table { rows: list } => rows(v, "rows", list),
-    }
-    optional(v, "rest_length", rest_length);
-    number(v, "size", size);
-    if let Some(Wrap { frame, obstacle }) = wrap {
-        v.within(Step::Key("wrap"), |v| {
-            placed(v, &mut frame.mount, Some(&mut frame.pose));
-            match obstacle {
-                Obstacle::Sphere { radius } => number(v, "sphere", radius),
-                Obstacle::Cylinder { radius, axis, turn: _ } => {
-                    number(v, "cylinder", radius);
-                    direction(v, "axis", axis);
-                }
+        attachment(v, "from", from);
+        attachment(v, "to", to);
+        match law {
+            SpringLaw::Linear { stiffness, tension_only: _ } => number(v, "stiffness", stiffness),
+            SpringLaw::Exponential { area, exponent, stress, form: _ } => {
+                number(v, "area", area);
+                number(v, "exponent", exponent);
+                number(v, "stress", stress);
             }
-        });
-    }
+            SpringLaw::Toe { axial_stiffness, toe_strain } => {
+                number(v, "axial_stiffness", axial_stiffness);
+                number(v, "toe_strain", toe_strain);
+            }
+            SpringLaw::Table { rows: list } => rows(v, "rows", list),
+        }
+        optional(v, "rest_length", rest_length);
+        number(v, "size", size);
+        if let Some(Wrap { frame, obstacle }) = wrap {
+            v.within(Step::Key("wrap"), |v| {
+                placed(v, &mut frame.mount, Some(&mut frame.pose));
+                match obstacle {
+                    Obstacle::Sphere { radius } => number(v, "sphere", radius),
+                    Obstacle::Cylinder { radius, axis, turn: _ } => {
+                        number(v, "cylinder", radius);
+                        direction(v, "axis", axis);
+                    }
+                }
+            });
+        }
     });
 }
 
 fn cable(v: &mut impl Visit, Cable { name, route, law }: &mut Cable) {
     v.within(Step::Named("cable", name), |v| {
-    match law {
-        CableLaw::Tension(tension) => number(v, "tension", tension),
-        CableLaw::Length(length) => number(v, "length", length),
-    }
-    let only = route.len() == 1;
-    v.within(Step::Key("route"), |v| {
-        for (i, guide) in route.iter_mut().enumerate() {
-            v.within(Step::Table(i, only), |v| match guide {
-                Guide::Point(attached) => point(v, attached),
-                Guide::Channel { beam: _, between: [from, to], offset } => {
-                    at(v, "from", from);
-                    at(v, "to", to);
-                    profiles(v, "offset", offset);
-                }
-            });
+        match law {
+            CableLaw::Tension(tension) => number(v, "tension", tension),
+            CableLaw::Length(length) => number(v, "length", length),
         }
-    });
+        let only = route.len() == 1;
+        v.within(Step::Key("route"), |v| {
+            for (i, guide) in route.iter_mut().enumerate() {
+                v.within(Step::Table(i, only), |v| match guide {
+                    Guide::Point(attached) => point(v, attached),
+                    Guide::Channel { beam: _, between: [from, to], offset } => {
+                        at(v, "from", from);
+                        at(v, "to", to);
+                        profiles(v, "offset", offset);
+                    }
+                });
+            }
+        });
     });
 }
 
 fn tubes(v: &mut impl Visit, Tubes { name, base, tubes, force, moment }: &mut Tubes) {
     v.within(Step::Named("tubes", name), |v| {
-    v.within(Step::Key("base"), |v| placed(v, &mut base.mount, Some(&mut base.pose)));
-    let only = tubes.len() == 1;
-    v.within(Step::Key("tube"), |v| {
-        for (i, tube) in tubes.iter_mut().enumerate() {
-            let Tube { material: _, section: _, straight, curved, curvature, rotation, translation } = tube;
-            v.within(Step::Table(i, only), |v| {
-                number(v, "straight", straight);
-                number(v, "curved", curved);
-                number(v, "curvature", curvature);
-                number(v, "rotation", rotation);
-                number(v, "translation", translation);
-            });
-        }
-    });
-    numbers(v, "force", force.iter_mut());
-    numbers(v, "moment", moment.iter_mut());
+        v.within(Step::Key("base"), |v| placed(v, &mut base.mount, Some(&mut base.pose)));
+        let only = tubes.len() == 1;
+        v.within(Step::Key("tube"), |v| {
+            for (i, tube) in tubes.iter_mut().enumerate() {
+                let Tube { material: _, section: _, straight, curved, curvature, rotation, translation } =
+                    tube;
+                v.within(Step::Table(i, only), |v| {
+                    number(v, "straight", straight);
+                    number(v, "curved", curved);
+                    number(v, "curvature", curvature);
+                    number(v, "rotation", rotation);
+                    number(v, "translation", translation);
+                });
+            }
+        });
+        numbers(v, "force", force.iter_mut());
+        numbers(v, "moment", moment.iter_mut());
     });
 }
 
 fn load(v: &mut impl Visit, Load { name, target, force, moment, frame: _ }: &mut Load) {
     v.within(Step::Named("load", name), |v| {
-    match target {
-        LoadTarget::Body { body: _, point } => numbers(v, "at", point.iter_mut()),
-        LoadTarget::Beam(point) => at(v, "at", &mut point.at),
-    }
-    numbers(v, "force", force.iter_mut());
-    numbers(v, "moment", moment.iter_mut());
+        match target {
+            LoadTarget::Body { body: _, point } => numbers(v, "at", point.iter_mut()),
+            LoadTarget::Beam(point) => at(v, "at", &mut point.at),
+        }
+        v.part(Part::Load);
+        numbers(v, "force", force.iter_mut());
+        numbers(v, "moment", moment.iter_mut());
+        v.part(Part::Other);
     });
 }
 

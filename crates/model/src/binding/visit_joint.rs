@@ -1,6 +1,6 @@
 //! The same walk over joints and holds: axes, coordinates, what touches what.
 
-use super::visit::{Item, Step, Visit, direction, function, number, numbers, optional, placed, rows};
+use super::visit::{Item, Part, Step, Visit, direction, function, number, numbers, optional, placed, rows};
 use crate::{
     Boundary, BoundaryCurve, Contact, CoordinateLaw, Drive, Frame, Joint, JointKind, JointLaw, Limits,
     RevolutionProfile, Rolling, RollingCoordinate, Slide, Surface, SurfaceMotion, Surfaces,
@@ -12,13 +12,13 @@ pub(super) fn joints(v: &mut impl Visit, joints: &mut [Joint]) {
             let Frame { mount, pose } = parent;
             v.within(Step::Key("parent"), |v| placed(v, mount, Some(pose)));
             v.within(Step::Key("child"), |v| placed(v, child, child_pose.as_mut()));
-            law(v, own, "rotation");
+            law(v, own, "rotation", Part::Drive);
         });
     }
 }
 
-/// Of a joint or a hold; `turning` is the key of what acts on a rotation vector beside displacements.
-pub(super) fn law(v: &mut impl Visit, law: &mut JointLaw, turning: &'static str) {
+/// Of a joint or a hold; `turning` is the key of what acts on a rotation vector beside displacements, `part` what its drives are.
+pub(super) fn law(v: &mut impl Visit, law: &mut JointLaw, turning: &'static str, part: Part) {
     let JointLaw { kind, axis, second_axis, contact, coordinates } = law;
     match kind {
         JointKind::Weld
@@ -43,17 +43,19 @@ pub(super) fn law(v: &mut impl Visit, law: &mut JointLaw, turning: &'static str)
     let names = kind.coordinate_names();
     for (i, coordinate) in coordinates.iter_mut().enumerate() {
         match kind {
-            JointKind::Spherical => of_coordinate(v, coordinate, Some(i)),
-            JointKind::Contact => v.within(Step::Key("rotation"), |v| of_coordinate(v, coordinate, Some(i))),
+            JointKind::Spherical => of_coordinate(v, coordinate, part, Some(i)),
+            JointKind::Contact => {
+                v.within(Step::Key("rotation"), |v| of_coordinate(v, coordinate, part, Some(i)))
+            }
             JointKind::Free if i >= 3 => {
-                v.within(Step::Key(turning), |v| of_coordinate(v, coordinate, Some(i - 3)));
+                v.within(Step::Key(turning), |v| of_coordinate(v, coordinate, part, Some(i - 3)));
             }
             JointKind::Weld
             | JointKind::Revolute
             | JointKind::Prismatic
             | JointKind::SurfaceRolling
             | JointKind::Rolling(RollingCoordinate::Turning | RollingCoordinate::Angle) => {
-                of_coordinate(v, coordinate, None);
+                of_coordinate(v, coordinate, part, None);
             }
             JointKind::Cylindrical
             | JointKind::Universal
@@ -61,7 +63,7 @@ pub(super) fn law(v: &mut impl Visit, law: &mut JointLaw, turning: &'static str)
             | JointKind::Free
             | JointKind::Rolling(RollingCoordinate::Arc) => {
                 let name = names.get(i).copied().unwrap_or_default();
-                v.within(Step::Key(name), |v| of_coordinate(v, coordinate, None));
+                v.within(Step::Key(name), |v| of_coordinate(v, coordinate, part, None));
             }
         }
     }
@@ -73,15 +75,17 @@ pub(super) fn law(v: &mut impl Visit, law: &mut JointLaw, turning: &'static str)
 }
 
 /// Of one coordinate; `component` where it is one of a rotation vector.
-fn of_coordinate(v: &mut impl Visit, law: &mut CoordinateLaw, component: Option<usize>) {
+fn of_coordinate(v: &mut impl Visit, law: &mut CoordinateLaw, part: Part, component: Option<usize>) {
     let CoordinateLaw { drive, stiffness, rest, limits } = law;
     let of = |v: &mut _, key, value: &mut f64| one(v, key, component, value);
+    v.part(part);
     match drive {
         Drive::Free { effort } => of(v, "effort", effort),
         Drive::Driven { coordinate } => of(v, "coordinate", coordinate),
     }
-    number(v, "stiffness", stiffness);
     of(v, "rest", rest);
+    v.part(Part::Other);
+    number(v, "stiffness", stiffness);
     if let Some(Limits { range, stiffness }) = limits {
         v.within(Step::Key("limits"), |v| {
             numbers(v, "range", range);

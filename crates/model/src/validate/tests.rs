@@ -208,7 +208,8 @@ fn unknowns_and_targets_come_in_equal_numbers() {
     let with = |unknowns: &[Unknown], value: f64, formulas: usize| {
         let target = Target { output: output(vec![Formula::slot(0); formulas]), value };
         paths(|m| {
-            m.parameters = vec![Parameter { name: "push".into(), value: 2.0, unit: "N".into() }];
+            m.parameters =
+                vec![Parameter { name: "push".into(), value: 2.0, unit: "N".into(), ..Parameter::default() }];
             (m.unknowns, m.targets) = (unknowns.to_vec(), vec![target.clone()]);
         })
     };

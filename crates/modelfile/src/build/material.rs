@@ -48,7 +48,8 @@ pub(super) fn material(reader: &Reader<'_, '_>, name: String) -> Read<Material> 
 fn bind_shear(reader: &Reader<'_, '_>, young: f64, poisson: f64) {
     let rules = &reader.context.rules;
     let path = reader.key_path("young");
-    let Some([young, poisson]) = rules.join([path.clone(), reader.key_path("poisson")], [young, poisson]) else {
+    let Some([young, poisson]) = rules.join([path.clone(), reader.key_path("poisson")], [young, poisson])
+    else {
         return;
     };
     rules.put(path, Rule::Number(young.clone()));

@@ -15,9 +15,6 @@ pub use wire::{
 use flexura_model::{Model, TraceStudy};
 use flexura_solution::{Trace, TracePoint};
 
-/// Makes a model again with other values (SI) of parameters, by their positions.
-pub type Remake<'f> = dyn FnMut(&[(usize, f64)]) -> Option<Model> + 'f;
-
 /// A trace with what belongs to it: the study, and the model as it is at every point with a state or a shape. The parameter
 /// may be a thickness or the place of a support, so that one model does not do for all.
 #[derive(Clone, Debug)]
@@ -35,13 +32,14 @@ pub struct TraceView<'a> {
 }
 
 impl<'a> TraceView<'a> {
-    /// Makes the models of the kept states; where `make` gives none, the model at hand stands in.
-    pub fn new(model: &'a Model, study: &'a TraceStudy, trace: &'a Trace, make: &mut Remake<'_>) -> Self {
-        let mut again = |point: &TracePoint, second: Option<(usize, f64)>| {
+    /// Makes the models of the kept states.
+    pub fn new(model: &'a Model, study: &'a TraceStudy, trace: &'a Trace) -> Self {
+        // A state of a trace belongs to a model that is sound; were it none, the model at hand stands in.
+        let again = |point: &TracePoint, second: Option<(usize, f64)>| {
             point.solution.as_ref().or(point.shape.as_ref())?;
             let values: Vec<(usize, f64)> =
                 std::iter::once((trace.parameter, point.parameter)).chain(second).collect();
-            make(&values)
+            model.at(&values).ok()
         };
         let kept = trace
             .branches

@@ -58,7 +58,12 @@ pub fn model() -> Model {
     wire.end = None;
     Model {
         name: "bent & held".into(),
-        parameters: vec![Parameter { name: "turn".into(), value: 1.2, unit: "rad".into() }],
+        parameters: vec![Parameter {
+            name: "turn".into(),
+            value: 1.2,
+            unit: "rad".into(),
+            ..Parameter::default()
+        }],
         materials: vec![Material {
             name: "steel".into(),
             young: YOUNG,
@@ -334,7 +339,12 @@ pub fn rich() -> (Model, Solution) {
         }
     };
     model.outputs = vec![sum("sink", "m", &[2]), sum("place", "m", &[0, 1, 2])];
-    model.parameters.push(Parameter { name: "push".into(), value: 3.2, unit: "N".into() });
+    model.parameters.push(Parameter {
+        name: "push".into(),
+        value: 3.2,
+        unit: "N".into(),
+        ..Parameter::default()
+    });
     solution.sensitivities = Some(Sensitivities {
         unknowns: Vec::new(),
         left_out: Vec::new(),

@@ -35,8 +35,8 @@ pub fn model() -> Model {
     Model {
         name: "clamped strip".into(),
         parameters: vec![
-            Parameter { name: "push".into(), value: 2.0, unit: "N".into() },
-            Parameter { name: "slope".into(), value: 1.0, unit: "rad".into() },
+            Parameter { name: "push".into(), value: 2.0, unit: "N".into(), ..Parameter::default() },
+            Parameter { name: "slope".into(), value: 1.0, unit: "rad".into(), ..Parameter::default() },
         ],
         materials: vec![Material {
             name: "steel".into(),

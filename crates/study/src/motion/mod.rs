@@ -10,7 +10,7 @@ mod profile;
 mod tests;
 mod walk;
 
-use crate::family::Family;
+use crate::family::{Family, ModelFamily};
 use crate::{Options, ProblemError};
 use flexura_model::{InverseDynamicsStudy, Model, StudyKind};
 use flexura_solution::{InverseDynamics, MotionWork, Status};
@@ -40,6 +40,19 @@ const NOTHING: f64 = 1e-9;
 /// # Errors
 /// The study does not fit the model: beams, a parameter that moves nothing, or does not decide the whole motion.
 pub fn inverse_dynamics(
+    model: &Model,
+    study: &InverseDynamicsStudy,
+    options: &Options,
+    progress: &mut dyn FnMut(MotionProgress),
+) -> Result<InverseDynamics, ProblemError> {
+    inverse_dynamics_family(model, &mut ModelFamily::new(model), study, options, progress)
+}
+
+/// [`inverse_dynamics`] where something else than the model's own rules makes the models with other values of its parameters.
+///
+/// # Errors
+/// As [`inverse_dynamics`].
+pub fn inverse_dynamics_family(
     model: &Model,
     family: &mut dyn Family,
     study: &InverseDynamicsStudy,

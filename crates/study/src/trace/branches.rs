@@ -4,7 +4,7 @@ use super::leg::{FINER, First, Follower, Leg, Met};
 use super::problem::{Axis, Traced};
 use super::record::{Reader, without_value};
 use super::{TraceProgress, critical, search};
-use crate::{Family, Options, Prepared, ProblemError};
+use crate::{Family, ModelFamily, Options, Prepared, ProblemError};
 use flexura_continuation::{Leaving, Problem, Refusal, Spread, WalkOptions, Walker, spread};
 use flexura_model::{Model, Stop, StudyKind, TraceStudy};
 use flexura_nonlinear::{NewtonOptions, System, converge};
@@ -39,6 +39,19 @@ const SAME: f64 = 1e-6;
 /// # Errors
 /// A model that describes no solvable mechanism, or an inverse problem.
 pub fn trace(
+    model: &Model,
+    study: &TraceStudy,
+    options: &Options,
+    progress: &mut dyn FnMut(TraceProgress<'_>),
+) -> Result<Trace, ProblemError> {
+    trace_family(model, &mut ModelFamily::new(model), study, options, progress)
+}
+
+/// [`trace`] where something else than the model's own rules makes the models with other values of its parameters.
+///
+/// # Errors
+/// As [`trace`].
+pub fn trace_family(
     model: &Model,
     family: &mut dyn Family,
     study: &TraceStudy,

@@ -11,7 +11,7 @@ use super::path;
 use super::pencil::Failure;
 use super::record::normalise;
 use crate::family::size_of;
-use crate::{Family, Options, Prepared, ProblemError};
+use crate::{Family, ModelFamily, Options, Prepared, ProblemError};
 use flexura_model::{BuckleStudy, Guide, Joint, Model, StudyKind};
 use flexura_solution::{BeamSample, Buckling, BucklingMode, Direction, Solution, Status};
 use flexura_spatial::{Twist, Vector3};
@@ -29,7 +29,15 @@ const TIED: f64 = 1e-6;
 ///
 /// # Errors
 /// A model that describes no solvable mechanism, or one without an energy.
-pub fn buckle(
+pub fn buckle(model: &Model, study: &BuckleStudy, options: &Options) -> Result<Buckling, ProblemError> {
+    buckle_family(model, &mut ModelFamily::new(model), study, options)
+}
+
+/// [`buckle`] where something else than the model's own rules makes the models with other values of its parameters.
+///
+/// # Errors
+/// As [`buckle`].
+pub fn buckle_family(
     model: &Model,
     family: &mut dyn Family,
     study: &BuckleStudy,

@@ -1,7 +1,6 @@
 //! A parameter on which only loads and drives depend, and these linearly: the model need not be made again.
 //!
-//! That this is so is not assumed: models are made at three values, and everything but forces, moments, drives and rests of
-//! joints must be the same in them, and these on straight lines.
+//! The rules of the model say whether that is so (`Family::is_line`); two models give the straight lines.
 
 use flexura_equilibrium::Equilibrium;
 use flexura_model::{CoordinateLaw, Drive, LoadId, Model};
@@ -24,9 +23,6 @@ pub(crate) struct Line {
     ends: [Numbers; 2],
 }
 
-/// Numbers that differ by no more than this part of the largest of their kind count as equal.
-const EQUAL: f64 = 1e-13;
-
 fn drive_value(law: &CoordinateLaw) -> f64 {
     match law.drive {
         Drive::Free { effort } => effort,
@@ -43,54 +39,20 @@ fn set_drive(law: &mut CoordinateLaw, [value, rest]: [f64; 2]) {
 }
 
 impl Numbers {
-    /// The numbers of a model, and the model without them as text.
-    fn of(model: &Model) -> (Self, String) {
-        let mut rest = model.clone();
-        let numbers = Self {
+    fn of(model: &Model) -> Self {
+        let laws = model.joints.iter().flat_map(|joint| &joint.law.coordinates);
+        Self {
             parameters: model.parameters.iter().map(|p| p.value).collect(),
             loads: model.loads.iter().map(|load| [load.force, load.moment]).collect(),
-            drives: model
-                .joints
-                .iter()
-                .flat_map(|joint| &joint.law.coordinates)
-                .map(|law| [drive_value(law), law.rest])
-                .collect(),
-        };
-        rest.parameters.iter_mut().for_each(|p| p.value = 0.0);
-        rest.studies.clear();
-        for load in &mut rest.loads {
-            (load.force, load.moment) = (Vector3::zeros(), Vector3::zeros());
+            drives: laws.map(|law| [drive_value(law), law.rest]).collect(),
         }
-        for law in rest.joints.iter_mut().flat_map(|joint| &mut joint.law.coordinates) {
-            set_drive(law, [0.0; 2]);
-        }
-        (numbers, format!("{rest:?}"))
-    }
-
-    fn list(&self) -> impl Iterator<Item = f64> + '_ {
-        let loads = self.loads.iter().flatten().flat_map(|v| [v.x, v.y, v.z]);
-        self.parameters.iter().copied().chain(loads).chain(self.drives.iter().flatten().copied())
     }
 }
 
 impl Line {
-    /// The line through models at three values, which must increase; None where they do not lie on one.
-    pub fn through(models: [(f64, &Model); 3]) -> Option<Self> {
-        let [(a, first), (b, middle), (c, last)] = models;
-        let ((first, x), (middle, y), (last, z)) =
-            (Numbers::of(first), Numbers::of(middle), Numbers::of(last));
-        if x != y || y != z {
-            return None;
-        }
-        let line = Self { from: a, width: c - a, ends: [first, last] };
-        let [from, to] = &line.ends;
-        let t = (b - a) / (c - a);
-        let straight = from
-            .list()
-            .zip(middle.list())
-            .zip(to.list())
-            .all(|((u, v), w)| (u + t * (w - u) - v).abs() <= EQUAL * u.abs().max(w.abs()).max(v.abs()));
-        straight.then_some(line)
+    /// The line through models at two values.
+    pub fn through([(a, first), (b, last)]: [(f64, &Model); 2]) -> Self {
+        Self { from: a, width: b - a, ends: [Numbers::of(first), Numbers::of(last)] }
     }
 
     /// Changes loads and drives of the problem to those at a value; the state stays, but for what is driven.

@@ -17,8 +17,8 @@ mod search;
 
 use flexura_solution::TracePoint;
 
-pub use branches::trace;
-pub use buckle::buckle;
+pub use branches::{trace, trace_family};
+pub use buckle::{buckle, buckle_family};
 
 /// How far a trace has come.
 #[derive(Clone, Copy, Debug)]

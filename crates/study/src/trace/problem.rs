@@ -71,13 +71,11 @@ impl<'a> Traced<'a> {
     /// Looks whether the model need not be made anew for every value.
     fn find_line(&mut self) {
         self.line = None;
-        if self.both {
+        if self.both || !self.family.is_line(self.axes[0].parameter) {
             return;
         }
-        let places = [0.0, 0.382, 1.0];
-        let models: Vec<Model> = places.iter().filter_map(|at| self.model_at([*at, 0.0]).ok()).collect();
-        if let [a, b, c] = &models[..] {
-            self.line = Line::through([(places[0], a), (places[1], b), (places[2], c)]);
+        if let (Ok(first), Ok(last)) = (self.model_at([0.0; 2]), self.model_at([1.0, 0.0])) {
+            self.line = Some(Line::through([(0.0, &first), (1.0, &last)]));
         }
     }
 

@@ -158,10 +158,8 @@ impl File {
         let model = self.document.model(&overrides).map_err(|report| report.render(false))?;
         let position = model.parameters.iter().position(|p| p.name == parameter);
         let study = BuckleStudy { parameter: position, at: 0.0, count };
-        let mut family = flexura::FileFamily::new(&self.document, &overrides, &model);
         let options = flexura::Options { tolerance: 1e-10, ..flexura::Options::default() };
-        let found =
-            flexura::buckle(&model, &mut family, &study, &options).map_err(|error| error.to_string())?;
+        let found = flexura::buckle(&model, &study, &options).map_err(|error| error.to_string())?;
         if found.modes.len() < count {
             return Err(format!("{} critical values", found.modes.len()));
         }

@@ -17,7 +17,7 @@ use flexura::model::visible;
 use flexura::modelfile::Document;
 use flexura::output::sweep_svg;
 use flexura::solution::Status;
-use flexura::{Axis, Interrupt, Options, Sample, SampleStatus, Sweep};
+use flexura::{Axis, Interrupt, Options, Sample, SampleStatus, Sweep, remake};
 use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
@@ -32,8 +32,12 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         options.tolerance = tolerance;
     }
     let axes = arguments.vary.iter().map(|text| Axis::parse(&model, text)).collect::<Result<Vec<_>, _>>();
-    let mut sweep =
-        axes.and_then(|axes| Sweep::new(&file, overrides, axes, &options)).map_err(Failure::Input)?;
+    let axes = axes.map_err(Failure::Input)?;
+    if let Some(both) = axes.iter().find(|axis| overrides.iter().any(|(set, _)| *set == axis.parameter)) {
+        return Err(Failure::Input(format!("`{}` is both set and varied", both.parameter)));
+    }
+    let remake = remake(&file, overrides, &model);
+    let mut sweep = Sweep::new(&model, axes, &options).map_err(Failure::Input)?.remade_by(&remake);
     let shown = Shown::new(&arguments.shown)?;
     if shown.wants_page() || arguments.model.json {
         sweep = sweep.with_shapes(model.beams.len());

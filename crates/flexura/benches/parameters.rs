@@ -1,0 +1,145 @@
+//! What parameters cost: other values, sensitivities, a sample of a sweep, a warm inverse solve. Run by hand:
+//! `cargo bench -p flexura --bench parameters`.
+#![allow(clippy::expect_used, clippy::print_stdout)]
+
+use flexura::model::Model;
+use flexura::modelfile::Document;
+use flexura::solution::Status;
+use flexura::{Axis, Family, ModelFamily, Options, Prepared, Sweep, solve_model};
+use std::hint::black_box;
+use std::time::Instant;
+
+fn read(file: &str) -> (Document, Model) {
+    let path = format!("{}/../../models/{file}", env!("CARGO_MANIFEST_DIR"));
+    let document = Document::read(path).expect("a bundled model");
+    let model = document.model(&[]).expect("a good model");
+    (document, model)
+}
+
+/// Median of seconds of one run, in batches that last long enough to be measured.
+fn median(mut run: impl FnMut()) -> f64 {
+    let start = Instant::now();
+    run();
+    let once = start.elapsed().as_secs_f64().max(1e-8);
+    let batch = ((2e-3 / once) as usize).clamp(1, 10_000);
+    let mut times: Vec<f64> = (0..15)
+        .map(|_| {
+            let start = Instant::now();
+            (0..batch).for_each(|_| run());
+            start.elapsed().as_secs_f64() / batch as f64
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+/// Other values of the first parameter on which the mechanism depends: in place, as a checked model, by text.
+fn values() {
+    println!(
+        "| other values of a parameter | rules | in place | a checked model | by text |\n|---|---|---|---|---|"
+    );
+    for file in ["sensor_clamp.toml", "cantilever_strip.toml", "six_rod_robot.toml", "wing_ligaments.toml"] {
+        let path = format!("{}/../../models/{file}", env!("CARGO_MANIFEST_DIR"));
+        if !std::path::Path::new(&path).exists() {
+            continue;
+        }
+        let (document, model) = read(file);
+        let Some(position) = (0..model.parameters.len()).find(|i| model.depends_on(*i)) else { continue };
+        let parameter = &model.parameters[position];
+        let mut scratch = model.clone();
+        let mut part = 0.0;
+        let mut value = || {
+            part = if part > 1e-3 { 0.0 } else { part + 1e-5 };
+            parameter.value * (1.0 + part)
+        };
+        let set = median(|| {
+            scratch.set(&[(position, value())]).expect("a sound value");
+            black_box(&scratch);
+        });
+        let made = median(|| {
+            black_box(ModelFamily::new(&model).model(&[(position, value())]).expect("a sound value"));
+        });
+        let text = median(|| {
+            let overrides = [(parameter.name.clone(), format!("{:e} {}", value(), parameter.unit))];
+            black_box(document.model(&overrides).expect("a sound value"));
+        });
+        println!(
+            "| {file} | {} | {:.2} us | {:.1} us | {:.0} us |",
+            model.bindings.iter().count(),
+            1e6 * set,
+            1e6 * made,
+            1e6 * text
+        );
+    }
+}
+
+/// All sensitivities beside the solve that they belong to.
+fn sensitivities() {
+    println!(
+        "\n| sensitivities | parameters | solve | with them | they cost, in solves |\n|---|---|---|---|---|"
+    );
+    for file in ["knee_leg.toml", "wing_ligaments.toml", "six_rod_robot.toml", "sensor_clamp.toml"] {
+        let path = format!("{}/../../models/{file}", env!("CARGO_MANIFEST_DIR"));
+        if !std::path::Path::new(&path).exists() {
+            continue;
+        }
+        let (_, model) = read(file);
+        let plain = Options { samples: 2, ..Options::default() };
+        let all = Options { sensitivities: true, ..plain.clone() };
+        let time = |options: &Options| {
+            median(|| {
+                let (solution, _) = solve_model(&model, options, &mut |_| {}).expect("a sound model");
+                assert_eq!(solution.status, Status::Converged);
+                black_box(solution);
+            })
+        };
+        let (plain, all) = (time(&plain), time(&all));
+        let count = (0..model.parameters.len()).filter(|i| model.depends_on(*i)).count();
+        println!(
+            "| {file} | {count} | {:.3} ms | {:.3} ms | {:.1} |",
+            1e3 * plain,
+            1e3 * all,
+            (all - plain) / plain
+        );
+    }
+}
+
+fn samples() {
+    let (_, model) = read("cantilever_strip.toml");
+    let axis = Axis::parse(&model, "payload=1 g:20 g:400").expect("a good axis");
+    let sweep = Sweep::new(&model, vec![axis], &Options::default()).expect("a good sweep");
+    let time = median(|| {
+        black_box(sweep.run(Some(1), &|_, _| {}).expect("threads"));
+    });
+    println!(
+        "\na sample of a sweep over the payload of cantilever_strip, one core: {:.0} us",
+        1e6 * time / 400.0
+    );
+}
+
+/// Targets that move a little: parameters found again from where they were.
+fn inverse() {
+    println!("\n| warm inverse solve | a step |\n|---|---|");
+    for (file, step) in [("six_rod_robot.toml", 1e-3)] {
+        let (_, model) = read(file);
+        let mut prepared = Prepared::new(&model).expect("a sound model");
+        let outcome = prepared.solve_inverse(&mut ModelFamily::new(&model), 1e-8, &mut |_| {});
+        assert_eq!(outcome.status, Status::Converged, "{:?}", outcome.reason);
+        let mut moved = model.clone();
+        let (mut count, target) = (0, model.targets[2].value);
+        let time = median(|| {
+            count += 1;
+            moved.targets[2].value = target + step * f64::from(count % 8);
+            let outcome = prepared.solve_inverse_from_here(&mut ModelFamily::new(&moved), 1e-8);
+            assert_eq!(outcome.status, Status::Converged, "{:?}", outcome.reason);
+        });
+        println!("| {file} | {:.3} ms |", 1e3 * time);
+    }
+}
+
+fn main() {
+    values();
+    sensitivities();
+    samples();
+    inverse();
+}
