@@ -71,6 +71,14 @@ impl Formula {
         Self { text: format!("slot {slot}"), program: Program { instructions } }
     }
 
+    /// The slot, if it is nothing else.
+    pub fn as_slot(&self) -> Option<usize> {
+        match self.program.instructions.as_slice() {
+            [crate::program::Instruction::Slot(slot)] => Some(*slot),
+            _ => None,
+        }
+    }
+
     /// The same formula with slot k renamed to `slots[k]`.
     pub fn renamed(&self, slots: &[usize]) -> Self {
         let mut renamed = self.clone();

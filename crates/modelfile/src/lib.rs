@@ -44,11 +44,13 @@ mod schema;
 mod syntax;
 mod tree;
 mod typed;
+mod write;
 
 pub use reference::reference_markdown;
 pub use report::{Problem, Report, ReportKind, Severity};
 pub use schema::schema;
 pub use typed::Flag;
+pub use write::to_toml;
 
 use context::{Context, Reported, suggest};
 use flexura_model::{Model, Study};

@@ -19,6 +19,8 @@ mod surface;
 mod tubes;
 mod unknown;
 
+pub(crate) use result::name_of;
+
 use crate::context::Context;
 use crate::format::{FILE, Key, Shape, Table};
 use crate::parameters;

@@ -6,6 +6,7 @@ mod target;
 mod walk;
 
 pub(super) use event::{event, stop};
+pub(crate) use readable::name_of;
 pub(super) use readable::{Part, coordinates};
 pub(super) use target::targets;
 pub(super) use walk::Walk;

@@ -2,8 +2,8 @@
 
 use flexura_expression::Dimension;
 use flexura_model::{
-    Boundary, BoundaryCurve, Contact, CoordinateKind, JointKind, JointLaw, Quantity, RollingCoordinate,
-    SpringLaw,
+    Boundary, BoundaryCurve, Contact, CoordinateKind, JointKind, JointLaw, Probe, ProbeTarget, Quantity,
+    RollingCoordinate, SpringLaw,
 };
 
 /// A name behind a beam, a body and so on.
@@ -244,4 +244,47 @@ pub(super) fn of_tubes() -> Vec<Readable> {
 
 pub(super) fn of_model() -> Vec<Readable> {
     vec![number("energy", Quantity::Energy, Dimension::MOMENT)]
+}
+
+/// The name of what a probe reads behind the thing that it reads it off, such as `position.x`; of the whole vector where one is
+/// wanted.
+pub(crate) fn name_of(probe: &Probe, law: Option<&JointLaw>, is_vector: bool) -> Option<String> {
+    let list = match (probe.target, law) {
+        (ProbeTarget::Beam(..), _) if probe.quantity == Quantity::FoundationForce => of_whole_beam(),
+        (ProbeTarget::Beam(..), _) => of_beam(),
+        (ProbeTarget::Body(_), _) => of_body(),
+        (ProbeTarget::Joint(_), law) => of_joint(law?),
+        (ProbeTarget::Spring(_), _) => {
+            let mut list = of_line();
+            list.push(number("strain", Quantity::Strain, Dimension::NUMBER));
+            list.push(number("stress", Quantity::Stress, Dimension::PRESSURE));
+            list
+        }
+        (ProbeTarget::Cable(_), _) => of_line(),
+        (ProbeTarget::Tubes(_), _) => of_tubes(),
+        (ProbeTarget::Model, _) => of_model(),
+    };
+    find(&list, probe, is_vector)
+}
+
+fn find(list: &[Readable], probe: &Probe, is_vector: bool) -> Option<String> {
+    list.iter().find_map(|Readable { name, part }| match part {
+        Part::Number(quantity, _, component) => {
+            ((*quantity, *component) == (probe.quantity, probe.component)).then(|| (*name).to_string())
+        }
+        Part::Vector(quantity, ..) if *quantity == probe.quantity && is_vector => Some((*name).to_string()),
+        Part::Vector(quantity, _, components) if *quantity == probe.quantity => {
+            components.get(probe.component).map(|component| format!("{name}.{component}"))
+        }
+        Part::Vector(..) => None,
+        Part::Group(inner) => find(inner, probe, is_vector).map(|inner| format!("{name}.{inner}")),
+        Part::Matrix(quantity) if *quantity == probe.quantity => {
+            let (rows, columns) = match quantity {
+                Quantity::Stiffness => (LOADS, MOTIONS),
+                _ => (MOTIONS, LOADS),
+            };
+            Some(format!("{name}.{}.{}", rows.get(probe.component / 6)?, columns.get(probe.component % 6)?))
+        }
+        Part::Matrix(_) => None,
+    })
 }

@@ -1,0 +1,143 @@
+//! Values of a file as text.
+
+use std::fmt::Write;
+
+/// A value behind a key.
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    /// Written as it is: a number, a flag.
+    Plain(String),
+    Text(String),
+    List(Vec<Value>),
+    Table(Table),
+}
+
+/// Keys with their values, in their order.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Table(Vec<(String, Value)>);
+
+impl Value {
+    pub fn plain(text: &str) -> Self {
+        Value::Plain(text.to_string())
+    }
+
+    pub fn text(text: &str) -> Self {
+        Value::Text(text.to_string())
+    }
+
+    pub fn flag(flag: bool) -> Self {
+        Value::Plain(flag.to_string())
+    }
+
+    /// The shortest text that reads back as the same number.
+    pub fn number(value: f64) -> Self {
+        // Whole numbers of moderate size need no decimals; infinity is `inf` in TOML too.
+        Value::Plain(
+            if value.fract() == 0.0 && value.abs() < 1e15 && (value != 0.0 || value.is_sign_positive()) {
+                format!("{value}")
+            } else {
+                format!("{value:?}")
+            },
+        )
+    }
+
+    fn write(&self, text: &mut String) {
+        match self {
+            Value::Plain(plain) => text.push_str(plain),
+            Value::Text(own) => quoted(own, text),
+            Value::List(list) => {
+                text.push('[');
+                for (i, value) in list.iter().enumerate() {
+                    if i > 0 {
+                        text.push_str(", ");
+                    }
+                    value.write(text);
+                }
+                text.push(']');
+            }
+            Value::Table(table) => {
+                text.push_str("{ ");
+                for (i, (key, value)) in table.0.iter().enumerate() {
+                    if i > 0 {
+                        text.push_str(", ");
+                    }
+                    name(key, text);
+                    text.push_str(" = ");
+                    value.write(text);
+                }
+                text.push_str(if table.0.is_empty() { "}" } else { " }" });
+            }
+        }
+    }
+}
+
+impl Table {
+    pub fn put(&mut self, key: &str, value: Value) {
+        self.0.push((key.to_string(), value));
+    }
+
+    pub fn put_some(&mut self, key: &str, value: Option<Value>) {
+        if let Some(value) = value {
+            self.put(key, value);
+        }
+    }
+
+    pub fn extend(&mut self, other: Table) {
+        self.0.extend(other.0);
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub fn has(&self, key: &str) -> bool {
+        self.0.iter().any(|(other, _)| other == key)
+    }
+
+    /// A line for each key.
+    pub fn lines(&self) -> String {
+        let mut text = String::new();
+        for (key, value) in &self.0 {
+            name(key, &mut text);
+            text.push_str(" = ");
+            value.write(&mut text);
+            text.push('\n');
+        }
+        text
+    }
+
+    /// The same behind a header.
+    pub fn section(&self, word: &str, own: &str) -> String {
+        let mut text = format!("\n[{word}");
+        if !own.is_empty() {
+            text.push('.');
+            name(own, &mut text);
+        }
+        let _ = writeln!(text, "]");
+        text + &self.lines()
+    }
+}
+
+/// A key, in quotes where it needs them.
+fn name(key: &str, text: &mut String) {
+    let bare = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+    if bare { text.push_str(key) } else { quoted(key, text) }
+}
+
+fn quoted(own: &str, text: &mut String) {
+    text.push('"');
+    for c in own.chars() {
+        match c {
+            '"' => text.push_str("\\\""),
+            '\\' => text.push_str("\\\\"),
+            '\n' => text.push_str("\\n"),
+            '\t' => text.push_str("\\t"),
+            c if c.is_control() => {
+                // Writing to a String cannot fail.
+                let _ = write!(text, "\\u{:04X}", c as u32);
+            }
+            c => text.push(c),
+        }
+    }
+    text.push('"');
+}
