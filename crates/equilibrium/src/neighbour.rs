@@ -41,7 +41,7 @@ impl Equilibrium {
     ///
     /// # Errors
     /// A model that cannot be prepared, or one that is made of other parts.
-    pub fn neighbour(&self, model: &Model) -> Result<Law, ProblemError> {
+    pub fn neighbour(&self, model: Model) -> Result<Law, ProblemError> {
         self.law_of(model, |_, _| None)
     }
 
@@ -51,7 +51,7 @@ impl Equilibrium {
     ///
     /// # Errors
     /// As [`Equilibrium::neighbour`].
-    pub fn neighbour_anew(&self, model: &Model) -> Result<Law, ProblemError> {
+    pub fn neighbour_anew(&self, model: Model) -> Result<Law, ProblemError> {
         self.law_of(model, |lowered, index| {
             let (span, own) = (&lowered.spans[index], &self.lowered.spans[index]);
             let part = (span.s[1] - span.s[0]) / (own.s[1] - own.s[0]);
@@ -71,10 +71,10 @@ impl Equilibrium {
     /// The law of a model; `anew` makes the mesh of a span on which other things happen.
     fn law_of(
         &self,
-        model: &Model,
+        model: Model,
         anew: impl Fn(&Lowered, usize) -> Option<SpanMesh>,
     ) -> Result<Law, ProblemError> {
-        let mut lowered = lower::lower(model, &self.probes, Some(self.lowered.scale))?;
+        let mut lowered = lower::lower(&model, &self.probes, Some(self.lowered.scale))?;
         lowered.warnings.clone_from(&self.lowered.warnings);
         let alike = lowered.nodes.len() == self.lowered.nodes.len()
             && lowered.joints.len() == self.lowered.joints.len()
@@ -111,7 +111,7 @@ impl Equilibrium {
                 "move loads, springs and breaks of sections apart, so that they keep their order",
             ));
         };
-        let mut law = Law { model: model.clone(), lowered, meshes, known_force: Vec::new() };
+        let mut law = Law { model, lowered, meshes, known_force: Vec::new() };
         law.known_force = crate::prepare::known_forces(&law.lowered, &law.meshes);
         Ok(law)
     }

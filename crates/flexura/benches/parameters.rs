@@ -138,8 +138,13 @@ fn inverse() {
 }
 
 fn main() {
-    values();
-    sensitivities();
-    samples();
-    inverse();
+    let asked: Vec<String> =
+        std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
+    let parts: [(&str, fn()); 4] =
+        [("values", values), ("sensitivities", sensitivities), ("samples", samples), ("inverse", inverse)];
+    for (name, part) in parts {
+        if asked.is_empty() || asked.iter().any(|one| one == name) {
+            part();
+        }
+    }
 }

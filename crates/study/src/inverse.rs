@@ -331,7 +331,7 @@ impl Prepared {
                 let model = family
                     .model(&self.values_with(*parameter, value + sign * h))
                     .map_err(SensitivityError::Model)?;
-                laws.push((sign, self.problem.neighbour(&model).map_err(SensitivityError::Model)?));
+                laws.push((sign, self.problem.neighbour(model).map_err(SensitivityError::Model)?));
             }
             let mut along = vec![0.0; self.problem.unknowns()];
             let mut step = along.clone();
@@ -406,7 +406,7 @@ impl Prepared {
 
     /// Puts the model with these values under the present state.
     fn put(&mut self, family: &mut dyn Family, values: &[(usize, f64)]) -> Result<(), ProblemError> {
-        let law = self.problem.neighbour(&family.model(values)?)?;
+        let law = self.problem.neighbour(family.model(values)?)?;
         self.problem.exchange(law);
         Ok(())
     }

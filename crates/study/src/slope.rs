@@ -54,7 +54,7 @@ impl Prepared {
         let mut laws = Vec::with_capacity(PLACES.len());
         for (place, ..) in PLACES {
             let model = family.model(&self.values_with(parameter, value + place * h))?;
-            laws.push(Some(self.problem.neighbour(&model)?));
+            laws.push(Some(self.problem.neighbour(model)?));
         }
         Ok(Beside { h, laws })
     }

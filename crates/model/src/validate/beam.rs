@@ -136,7 +136,7 @@ pub(super) fn check_curve(curve: &Curve, beam: &str, issues: &mut Issues) -> Opt
     let path = format!("{beam}.curve");
     match curve {
         Curve::Straight { length } => {
-            issues.positive(format!("{beam}.length"), *length);
+            issues.positive(format_args!("{beam}.length"), *length);
         }
         Curve::Arc { radius, angle } => {
             check_bent(*radius, &format!("{path}.radius"), "an arc", issues);
@@ -144,7 +144,7 @@ pub(super) fn check_curve(curve: &Curve, beam: &str, issues: &mut Issues) -> Opt
         }
         Curve::Helix { radius, pitch, turns } => {
             check_bent(*radius, &format!("{path}.radius"), "a helix", issues);
-            issues.finite(format!("{path}.pitch"), *pitch);
+            issues.finite(format_args!("{path}.pitch"), *pitch);
             if *turns < 0.0 && turns.is_finite() {
                 issues.add_with_hint(
                     format!("{path}.turns"),
@@ -152,7 +152,7 @@ pub(super) fn check_curve(curve: &Curve, beam: &str, issues: &mut Issues) -> Opt
                     "a left-handed helix has a negative pitch",
                 );
             } else {
-                issues.positive(format!("{path}.turns"), *turns);
+                issues.positive(format_args!("{path}.turns"), *turns);
             }
         }
         Curve::Parametric { position, range } => {
@@ -185,7 +185,7 @@ pub(super) fn check_curve(curve: &Curve, beam: &str, issues: &mut Issues) -> Opt
                 issues.add(path.clone(), format!("a curve needs at least 2 points, found {}", points.len()));
             }
             for (i, point) in points.iter().enumerate() {
-                issues.finite_vector(format!("{path}.points[{i}]"), point);
+                issues.finite_vector(format_args!("{path}.points[{i}]"), point);
             }
             if let Some(i) = points.windows(2).position(|pair| pair[0] == pair[1]) {
                 issues.add(
@@ -195,7 +195,7 @@ pub(super) fn check_curve(curve: &Curve, beam: &str, issues: &mut Issues) -> Opt
             }
         }
         Curve::Curvature { curvature, length } => {
-            let sound = issues.positive(format!("{path}.length"), *length);
+            let sound = issues.positive(format_args!("{path}.length"), *length);
             for (profile, key) in curvature.iter().zip(["k1", "k2", "k3"]) {
                 let path = format!("{path}.{key}");
                 check_table(profile, &path, issues);
@@ -268,7 +268,7 @@ fn check_frame_acts(beam: &Beam, path: &str, issues: &mut Issues) {
 fn check_frame(beam: &Beam, path: &str, issues: &mut Issues) {
     check_frame_acts(beam, path, issues);
     let direction = |vector: &Vector3<f64>, key: &str, issues: &mut Issues| {
-        issues.finite_vector(format!("{path}.{key}"), vector);
+        issues.finite_vector(format_args!("{path}.{key}"), vector);
         if *vector == Vector3::zeros() {
             issues.add(format!("{path}.{key}"), "a direction must not be zero");
         }
@@ -276,7 +276,7 @@ fn check_frame(beam: &Beam, path: &str, issues: &mut Issues) {
     match &beam.frame {
         SectionFrame::Natural => {}
         SectionFrame::Frenet { offset } => {
-            issues.finite(format!("{path}.offset"), *offset);
+            issues.finite(format_args!("{path}.offset"), *offset);
         }
         SectionFrame::RotationMinimising { start, twist } => {
             if let Some(start) = start {

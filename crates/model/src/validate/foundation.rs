@@ -18,7 +18,7 @@ pub(super) fn check_foundations(beam: &Beam, length: Option<f64>, issues: &mut I
         let path = format!("beam.{}.foundation{index}", beam.name);
         check_law(foundation, length, &path, issues);
         if let Some(direction) = &foundation.direction {
-            issues.finite_vector(format!("{path}.direction"), direction);
+            issues.finite_vector(format_args!("{path}.direction"), direction);
             if *direction == Vector3::zeros() {
                 issues.add(format!("{path}.direction"), "a direction must not be zero");
             }

@@ -196,18 +196,18 @@ pub(super) fn check_law(law: &JointLaw, path: &str, issues: &mut Issues) {
 
 fn check_coordinate(coordinate: &CoordinateLaw, path: &str, issues: &mut Issues) {
     match coordinate.drive {
-        Drive::Free { effort } => issues.finite(format!("{path}.effort"), effort),
-        Drive::Driven { coordinate } => issues.finite(format!("{path}.coordinate"), coordinate),
+        Drive::Free { effort } => issues.finite(format_args!("{path}.effort"), effort),
+        Drive::Driven { coordinate } => issues.finite(format_args!("{path}.coordinate"), coordinate),
     };
-    issues.not_negative(format!("{path}.stiffness"), coordinate.stiffness);
-    issues.finite(format!("{path}.rest"), coordinate.rest);
+    issues.not_negative(format_args!("{path}.stiffness"), coordinate.stiffness);
+    issues.finite(format_args!("{path}.rest"), coordinate.rest);
     if let Some(limits) = coordinate.limits {
         let [low, high] = limits.range;
         if low.is_nan() || high.is_nan() || low >= high {
             issues.add(format!("{path}.limits.range"), format!("must increase, is [{low}, {high}]"));
         }
         if let Some(stiffness) = limits.stiffness {
-            issues.not_negative(format!("{path}.limits.stiffness"), stiffness);
+            issues.not_negative(format_args!("{path}.limits.stiffness"), stiffness);
         }
     }
 }

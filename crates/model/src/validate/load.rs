@@ -18,9 +18,9 @@ impl Model {
         for cable in &self.cables {
             let path = format!("cable.{}", cable.name);
             match cable.law {
-                CableLaw::Tension(tension) => issues.not_negative(format!("{path}.tension"), tension),
+                CableLaw::Tension(tension) => issues.not_negative(format_args!("{path}.tension"), tension),
                 CableLaw::Length(length) => {
-                    issues.positive(format!("{path}.length"), length);
+                    issues.positive(format_args!("{path}.length"), length);
                 }
             }
             let path = format!("{path}.route");
@@ -76,19 +76,19 @@ impl Model {
         for mass in &self.masses {
             let path = format!("mass.{}", mass.name);
             self.check_at(&mass.point, &format!("{path}.at"), issues);
-            issues.not_negative(format!("{path}.mass"), mass.mass);
+            issues.not_negative(format_args!("{path}.mass"), mass.mass);
         }
         for load in &self.loads {
             let path = format!("load.{}", load.name);
             match &load.target {
                 LoadTarget::Body { body, point } => {
                     self.check_mount(Mount::Body(*body), &path, issues);
-                    issues.finite_vector(format!("{path}.at"), point);
+                    issues.finite_vector(format_args!("{path}.at"), point);
                 }
                 LoadTarget::Beam(point) => self.check_at(point, &format!("{path}.at"), issues),
             }
-            issues.finite_vector(format!("{path}.force"), &load.force);
-            issues.finite_vector(format!("{path}.moment"), &load.moment);
+            issues.finite_vector(format_args!("{path}.force"), &load.force);
+            issues.finite_vector(format_args!("{path}.moment"), &load.moment);
         }
     }
 }

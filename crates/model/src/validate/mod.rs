@@ -2,6 +2,7 @@
 
 use crate::Model;
 use flexura_spatial::{Matrix3, Pose, Vector3};
+use std::fmt::Display;
 
 mod beam;
 mod doubts;
@@ -45,40 +46,38 @@ impl Issues {
         self.0.push(Issue { path: path.into(), message: message.into(), hint: Some(hint.into()) });
     }
 
-    fn finite(&mut self, path: impl Into<String>, value: f64) -> bool {
+    fn finite(&mut self, path: impl Display, value: f64) -> bool {
         if !value.is_finite() {
-            self.add(path, format!("must be a finite number, is {value}"));
+            self.add(path.to_string(), format!("must be a finite number, is {value}"));
         }
         value.is_finite()
     }
 
-    fn positive(&mut self, path: impl Into<String>, value: f64) -> bool {
-        let path = path.into();
-        if !self.finite(path.clone(), value) {
+    fn positive(&mut self, path: impl Display, value: f64) -> bool {
+        if !self.finite(&path, value) {
             return false;
         }
         if value <= 0.0 {
-            self.add(path, format!("must be positive, is {value}"));
+            self.add(path.to_string(), format!("must be positive, is {value}"));
         }
         value > 0.0
     }
 
-    fn not_negative(&mut self, path: impl Into<String>, value: f64) {
-        let path = path.into();
-        if self.finite(path.clone(), value) && value < 0.0 {
-            self.add(path, format!("must not be negative, is {value}"));
+    fn not_negative(&mut self, path: impl Display, value: f64) {
+        if self.finite(&path, value) && value < 0.0 {
+            self.add(path.to_string(), format!("must not be negative, is {value}"));
         }
     }
 
-    fn finite_vector(&mut self, path: impl Into<String>, vector: &Vector3<f64>) {
+    fn finite_vector(&mut self, path: impl Display, vector: &Vector3<f64>) {
         if !vector.iter().all(|x| x.is_finite()) {
             let [x, y, z] = [vector.x, vector.y, vector.z];
-            self.add(path, format!("must be finite numbers, is [{x}, {y}, {z}]"));
+            self.add(path.to_string(), format!("must be finite numbers, is [{x}, {y}, {z}]"));
         }
     }
 
     fn pose(&mut self, path: &str, pose: &Pose) {
-        self.finite_vector(format!("{path}.at"), &pose.position);
+        self.finite_vector(format_args!("{path}.at"), &pose.position);
         if !pose.rotation.coords.iter().all(|x| x.is_finite()) || (pose.rotation.norm() - 1.0).abs() > 1e-9 {
             self.add(format!("{path}.rotation"), "must be a unit quaternion");
         }
@@ -129,7 +128,7 @@ impl Model {
         self.check_names(&mut issues);
         issues.finite_vector("gravity", &self.gravity);
         for parameter in &self.parameters {
-            issues.finite(format!("parameter.{}", parameter.name), parameter.value);
+            issues.finite(format_args!("parameter.{}", parameter.name), parameter.value);
         }
         self.check_materials(&mut issues);
         for section in &self.sections {
@@ -139,8 +138,8 @@ impl Model {
         for body in &self.bodies {
             let path = format!("body.{}", body.name);
             issues.pose(&path, &body.pose);
-            issues.not_negative(format!("{path}.mass"), body.mass);
-            issues.finite_vector(format!("{path}.center_of_mass"), &body.center_of_mass);
+            issues.not_negative(format_args!("{path}.mass"), body.mass);
+            issues.finite_vector(format_args!("{path}.center_of_mass"), &body.center_of_mass);
             check_inertia(&body.inertia, &format!("{path}.inertia"), &mut issues);
         }
         for beam in &self.beams {
@@ -182,13 +181,13 @@ impl Model {
     fn check_materials(&self, issues: &mut Issues) {
         for material in &self.materials {
             let path = format!("material.{}", material.name);
-            issues.positive(format!("{path}.young"), material.young);
-            issues.positive(format!("{path}.shear"), material.shear);
+            issues.positive(format_args!("{path}.young"), material.young);
+            issues.positive(format_args!("{path}.shear"), material.shear);
             if let Some(density) = material.density {
-                issues.not_negative(format!("{path}.density"), density);
+                issues.not_negative(format_args!("{path}.density"), density);
             }
             if let Some(strength) = material.yield_strength {
-                issues.positive(format!("{path}.yield_strength"), strength);
+                issues.positive(format_args!("{path}.yield_strength"), strength);
             }
         }
     }

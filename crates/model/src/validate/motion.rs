@@ -58,7 +58,7 @@ fn check_trapezoid(
     issues: &mut Issues,
 ) {
     let finite = [("from", from), ("to", to), ("ramp", ramp)];
-    if !finite.iter().all(|(key, value)| issues.finite(format!("{path}.{key}"), *value)) {
+    if !finite.iter().all(|(key, value)| issues.finite(format_args!("{path}.{key}"), *value)) {
         return;
     }
     if from == to {
@@ -127,8 +127,8 @@ fn check_knots(knots: &[[f64; 2]], path: &str, issues: &mut Issues) {
         return;
     }
     for (i, [time, value]) in knots.iter().enumerate() {
-        if !issues.finite(format!("{path}[{i}][0]"), *time)
-            || !issues.finite(format!("{path}[{i}][1]"), *value)
+        if !issues.finite(format_args!("{path}[{i}][0]"), *time)
+            || !issues.finite(format_args!("{path}[{i}][1]"), *value)
         {
             return;
         }

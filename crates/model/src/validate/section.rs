@@ -83,19 +83,19 @@ pub(super) fn check_section_alone(shape: &Shape, path: &str, issues: &mut Issues
 }
 
 fn check_notch(notch: &Notch, path: &str, issues: &mut Issues) {
-    issues.positive(format!("{path}.thickness"), notch.thickness);
+    issues.positive(format_args!("{path}.thickness"), notch.thickness);
     match notch.shape {
         NotchShape::Circular { radius } => {
-            issues.positive(format!("{path}.radius"), radius);
+            issues.positive(format_args!("{path}.radius"), radius);
         }
         NotchShape::Elliptic { along, across } => {
-            issues.positive(format!("{path}.semi_axis_along"), along);
-            issues.positive(format!("{path}.semi_axis_across"), across);
+            issues.positive(format_args!("{path}.semi_axis_along"), along);
+            issues.positive(format_args!("{path}.semi_axis_across"), across);
         }
         NotchShape::CornerFilleted { radius, length } => {
-            let radius_is_sound = issues.positive(format!("{path}.radius"), radius);
+            let radius_is_sound = issues.positive(format_args!("{path}.radius"), radius);
             if let Some(length) = length
-                && issues.positive(format!("{path}.length"), length)
+                && issues.positive(format_args!("{path}.length"), length)
                 && radius_is_sound
                 && 2.0 * radius > length * (1.0 + ROUND_OFF)
             {

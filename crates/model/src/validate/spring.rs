@@ -15,7 +15,7 @@ impl Model {
             if spring.from == spring.to {
                 issues.add(format!("{path}.to"), "a spring must connect two different points");
             }
-            issues.positive(format!("{path}.size"), spring.size);
+            issues.positive(format_args!("{path}.size"), spring.size);
             check_law(spring, &path, issues);
             if let Some(wrap) = &spring.wrap {
                 self.check_wrap(wrap, &format!("{path}.wrap"), issues);
@@ -28,10 +28,10 @@ impl Model {
         issues.pose(path, &wrap.frame.pose);
         match &wrap.obstacle {
             Obstacle::Sphere { radius } => {
-                issues.positive(format!("{path}.sphere"), *radius);
+                issues.positive(format_args!("{path}.sphere"), *radius);
             }
             Obstacle::Cylinder { radius, axis, .. } => {
-                issues.positive(format!("{path}.cylinder"), *radius);
+                issues.positive(format_args!("{path}.cylinder"), *radius);
                 if (axis.norm() - 1.0).is_nan() || (axis.norm() - 1.0).abs() > 1e-9 {
                     issues.add(format!("{path}.axis"), "must be a unit vector");
                 }
@@ -53,16 +53,16 @@ fn check_law(spring: &Spring, path: &str, issues: &mut Issues) {
     }
     match &spring.law {
         SpringLaw::Linear { stiffness, .. } => {
-            issues.not_negative(format!("{path}.stiffness"), *stiffness);
+            issues.not_negative(format_args!("{path}.stiffness"), *stiffness);
         }
         SpringLaw::Exponential { area, exponent, stress, .. } => {
             for (key, value) in [("area", area), ("exponent", exponent), ("stress", stress)] {
-                issues.positive(format!("{path}.{key}"), *value);
+                issues.positive(format_args!("{path}.{key}"), *value);
             }
         }
         SpringLaw::Toe { axial_stiffness, toe_strain } => {
-            issues.positive(format!("{path}.axial_stiffness"), *axial_stiffness);
-            if issues.finite(format!("{path}.toe_strain"), *toe_strain) && *toe_strain <= 0.0 {
+            issues.positive(format_args!("{path}.axial_stiffness"), *axial_stiffness);
+            if issues.finite(format_args!("{path}.toe_strain"), *toe_strain) && *toe_strain <= 0.0 {
                 issues.add_with_hint(
                     format!("{path}.toe_strain"),
                     format!("must be positive, is {toe_strain}"),
@@ -81,7 +81,7 @@ fn check_rows(rows: &[[f64; 2]], path: &str, issues: &mut Issues) {
     }
     for (i, row) in rows.iter().enumerate() {
         for (value, k) in row.iter().zip(0..) {
-            issues.finite(format!("{path}[{i}][{k}]"), *value);
+            issues.finite(format_args!("{path}[{i}][{k}]"), *value);
         }
     }
     for (i, pair) in rows.windows(2).enumerate() {

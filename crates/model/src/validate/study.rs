@@ -149,7 +149,7 @@ impl Model {
         if let Some(parameter) = buckle.parameter {
             self.parameter_of(parameter, path, issues);
         }
-        issues.finite(format!("{path}.at"), buckle.at);
+        issues.finite(format_args!("{path}.at"), buckle.at);
         at_least(buckle.count, 1, &format!("{path}.count"), issues);
     }
 

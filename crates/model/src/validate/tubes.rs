@@ -19,8 +19,8 @@ impl Model {
                 mount => self.check_mount(mount, &base, issues),
             }
             issues.pose(&base, &tubes.base.pose);
-            issues.finite_vector(format!("{path}.force"), &tubes.force);
-            issues.finite_vector(format!("{path}.moment"), &tubes.moment);
+            issues.finite_vector(format_args!("{path}.force"), &tubes.force);
+            issues.finite_vector(format_args!("{path}.moment"), &tubes.moment);
             let path = format!("{path}.tube");
             if !(1..=4).contains(&tubes.tubes.len()) {
                 issues.add(path.clone(), format!("there must be 1 to 4 tubes, not {}", tubes.tubes.len()));
@@ -151,10 +151,10 @@ impl Model {
 }
 
 fn check_lengths(tube: &Tube, i: usize, path: &str, issues: &mut Issues) {
-    issues.not_negative(format!("{path}.straight"), tube.straight);
-    issues.not_negative(format!("{path}.curved"), tube.curved);
-    issues.finite(format!("{path}.curvature"), tube.curvature);
-    issues.finite(format!("{path}.rotation"), tube.rotation);
+    issues.not_negative(format_args!("{path}.straight"), tube.straight);
+    issues.not_negative(format_args!("{path}.curved"), tube.curved);
+    issues.finite(format_args!("{path}.curvature"), tube.curvature);
+    issues.finite(format_args!("{path}.rotation"), tube.rotation);
     let at = format!("{path}.translation");
     if !issues.finite(at.clone(), tube.translation) {
         return;

@@ -90,10 +90,6 @@ impl Table {
         self.0.is_empty()
     }
 
-    pub fn has(&self, key: &str) -> bool {
-        self.0.iter().any(|(other, _)| other == key)
-    }
-
     /// A line for each key.
     pub fn lines(&self) -> String {
         let mut text = String::new();

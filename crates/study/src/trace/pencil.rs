@@ -170,7 +170,7 @@ impl Prepared {
                 let Ok(model) = family.model(&self.values_with(parameter, study.at + by)) else {
                     return false;
                 };
-                let Ok(law) = self.problem.neighbour(&model) else { return false };
+                let Ok(law) = self.problem.neighbour(model) else { return false };
                 let own = self.problem.exchange(law);
                 self.problem.store(&mut moved);
                 self.problem.exchange(own);
@@ -242,7 +242,7 @@ impl Prepared {
             Some(parameter) => {
                 let model =
                     family.model(&self.values_with(parameter, study.at + by)).map_err(Failure::Problem)?;
-                let law = self.problem.neighbour(&model).map_err(Failure::Problem)?;
+                let law = self.problem.neighbour(model).map_err(Failure::Problem)?;
                 Some(self.problem.exchange(law))
             }
             None => {

@@ -205,7 +205,7 @@ impl Problem for Traced<'_> {
                 let model = self.model_at(values)?;
                 self.prepared
                     .problem
-                    .neighbour_anew(&model)
+                    .neighbour_anew(model)
                     .map_err(|error| Refusal::Parameter(error.message))?
             }
         };
