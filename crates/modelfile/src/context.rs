@@ -240,11 +240,6 @@ impl<'a> Context<'a> {
         self.used.borrow().contains(&(word, name.to_string()))
     }
 
-    /// Forgets what was referred to so far.
-    pub(crate) fn forget_uses(&self) {
-        self.used.borrow_mut().clear();
-    }
-
     pub(crate) fn mark_used(&self, word: &'static str, name: &str) {
         self.used.borrow_mut().insert((word, name.to_string()));
     }

@@ -53,7 +53,7 @@ pub use typed::Flag;
 pub use write::to_toml;
 
 use context::{Context, Reported, suggest};
-use flexura_model::{Model, Study};
+use flexura_model::Model;
 use report::{Source, Texts};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -132,15 +132,7 @@ impl Document {
 
     /// The model, with some parameters overridden: each is a name and a text such as "3", "3 N" or "2*other".
     pub fn model(&self, overrides: &[(String, String)]) -> Result<Model, Report> {
-        self.build(overrides, None, |model, context| match model {
-            Some(model) => Ok(model),
-            None => Err(context.into_report()),
-        })
-    }
-
-    /// [`Document::model`] beside another one of this file, whose studies it takes over as they are.
-    pub fn model_beside(&self, overrides: &[(String, String)], studies: &[Study]) -> Result<Model, Report> {
-        self.build(overrides, Some(studies), |model, context| match model {
+        self.build(overrides, |model, context| match model {
             Some(model) => Ok(model),
             None => Err(context.into_report()),
         })
@@ -149,39 +141,16 @@ impl Document {
     /// What looks unintended although the model can be made: things that nothing uses, angles of many turns without a
     /// unit, and what [`Model::doubts`] finds.
     pub fn warnings(&self) -> Vec<Problem> {
-        self.build(&[], None, |model, context| match model {
+        self.build(&[], |model, context| match model {
             Some(model) => build::warnings(&context, &model),
             None => Vec::new(),
         })
-    }
-
-    /// Which of the parameters, in the order of the file, the model depends on with these overrides: those that something
-    /// other than a parameter refers to, and those by which these are written. Empty where there is no model.
-    pub fn parameters_that_matter(&self, overrides: &[(String, String)]) -> Vec<bool> {
-        let mut context = Context::new(&self.texts, &self.folder, &self.root);
-        build::parameters(&mut context, overrides);
-        context.is_overridden = !overrides.is_empty();
-        context.forget_uses();
-        let direct = |context: &Context<'_>| -> Vec<bool> {
-            let names = self.parameter_names();
-            names.iter().map(|name| context.is_used("parameter", name)).collect()
-        };
-        let used = match repeat::expand(&context) {
-            Err(Reported) => return Vec::new(),
-            Ok(None) => build::model(&context, None).map(|_| direct(&context)),
-            Ok(Some(expanded)) => {
-                let context = context.over(&expanded);
-                build::model(&context, None).map(|_| direct(&context))
-            }
-        };
-        used.map_or_else(Vec::new, |used| parameters::closure(&self.root, overrides, used))
     }
 
     /// Builds the model and hands it on with what was found on the way.
     fn build<T>(
         &self,
         overrides: &[(String, String)],
-        beside: Option<&[Study]>,
         then: impl FnOnce(Option<Model>, Context<'_>) -> T,
     ) -> T {
         let mut context = Context::new(&self.texts, &self.folder, &self.root);
@@ -190,12 +159,12 @@ impl Document {
         match repeat::expand(&context) {
             Err(Reported) => then(None, context),
             Ok(None) => {
-                let model = build::model(&context, beside);
+                let model = build::model(&context);
                 then(model, context)
             }
             Ok(Some(expanded)) => {
                 let context = context.over(&expanded);
-                let model = build::model(&context, beside);
+                let model = build::model(&context);
                 then(model, context)
             }
         }

@@ -61,39 +61,6 @@ fn guesses<'a>(root: &'a Node) -> Vec<Declared<'a>> {
     entries.iter().filter_map(guess).collect()
 }
 
-/// The parameters that matter: those that are used, and those to which their texts refer, by the file or overrides.
-pub(crate) fn closure(root: &Node, overrides: &[(String, String)], used: Vec<bool>) -> Vec<bool> {
-    let entries = declared(root);
-    let positions: BTreeMap<&str, usize> =
-        entries.iter().enumerate().map(|(i, entry)| (entry.name, i)).collect();
-    let guesses: BTreeMap<&str, &Node> = guesses(root).iter().map(|guess| (guess.name, guess.node)).collect();
-    let set: BTreeMap<&str, &str> =
-        overrides.iter().map(|(name, text)| (name.trim(), text.as_str())).collect();
-    let mut matter = used;
-    let mut open: Vec<usize> = (0..matter.len()).filter(|i| matter[*i]).collect();
-    while let Some(position) = open.pop() {
-        let entry = &entries[position];
-        let written = |node: &'_ Node| match &node.value {
-            Value::Text(text) => Some(text.clone()),
-            _ => None,
-        };
-        let texts = [
-            written(entry.node),
-            guesses.get(entry.name).and_then(|node| written(node)),
-            set.get(entry.name).map(ToString::to_string),
-        ];
-        for expression in texts.iter().flatten().filter_map(|text| Expression::parse(text).ok()) {
-            for needed in expression.references().iter().filter_map(|reference| reference.name()) {
-                if let Some(needed) = positions.get(needed).filter(|needed| !matter[**needed]) {
-                    matter[*needed] = true;
-                    open.push(*needed);
-                }
-            }
-        }
-    }
-    matter
-}
-
 /// Evaluates all parameters, first as declared, then with guesses and overrides. What is wrong is recorded.
 pub(crate) fn evaluate(context: &mut Context<'_>, overrides: &[(String, String)]) {
     let root = context.root;

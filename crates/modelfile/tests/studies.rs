@@ -168,7 +168,7 @@ fn a_neighbouring_model_keeps_the_studies_though_a_range_loses_its_length() {
     let document = document(text);
     let base = document.model(&[]).unwrap();
     let other = [("depth".to_string(), "30 mm".to_string())];
-    let beside = document.model_beside(&other, &base.studies).unwrap();
+    let beside = base.at(&[(2, 0.03)]).unwrap();
     assert_eq!((&beside.studies, beside.parameters[2].value), (&base.studies, 0.03));
     // With other values of its parameters a study of the file may have lost its meaning; that is told where it is done.
     assert!(document.model(&other).is_ok());

@@ -27,7 +27,7 @@ use crate::parameters;
 use crate::reader::Reader;
 use crate::report::Problem;
 use crate::tree::{Entry, Node, Value};
-use flexura_model::{Model, Parameter, Study, name_problem};
+use flexura_model::{Model, Parameter, name_problem};
 use flexura_spatial::Vector3;
 use std::collections::BTreeSet;
 
@@ -39,9 +39,8 @@ pub(crate) fn parameters(context: &mut Context<'_>, overrides: &[(String, String
     parameters::evaluate(context, overrides);
 }
 
-/// Reads the whole file. None: something is wrong, which has been recorded. With the studies of another model, it is one
-/// beside that: they are not read again, as the range of a path may lose its length when its parameter changes.
-pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<Model> {
+/// Reads the whole file. None: something is wrong, which has been recorded.
+pub(crate) fn model(context: &Context<'_>) -> Option<Model> {
     let root = context.root;
     let file = Reader::open_node(context, root, &(0..0), &FILE, "").ok()?;
     let mut model = Model {
@@ -84,9 +83,7 @@ pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<M
     let live = result::live_outputs(context, &model, &outputs);
     model.targets = result::targets(context, named_entries(context, "target"), &model, &live);
     model.outputs = live.into_iter().map(|built| built.output).collect();
-    if beside.is_none() {
-        model.studies = study::studies(context, &model, &outputs);
-    }
+    model.studies = study::studies(context, &model, &outputs);
     if !context.any_problem() {
         unknown::check_count(context, &model);
     }
@@ -107,9 +104,6 @@ pub(crate) fn model(context: &Context<'_>, beside: Option<&[Study]>) -> Option<M
     }
     if context.any_problem() {
         return None;
-    }
-    if let Some(studies) = beside {
-        model.studies = studies.to_vec();
     }
     context.rules.hand_over(&mut model);
     Some(model)
