@@ -122,6 +122,22 @@ impl BeamLaw {
         Ok(law)
     }
 
+    /// Is it the law of this beam of a model, too? How the beam is held does not enter it.
+    pub fn is_of(&self, model: &Model, id: BeamId) -> bool {
+        let (own, other) = (&self.beam, &model[id]);
+        self.softening == 0.0
+            && self.gravity == model.gravity
+            && (own.start.is_some(), own.end.is_some()) == (other.start.is_some(), other.end.is_some())
+            && own.theory == other.theory
+            && own.curve == other.curve
+            && own.frame == other.frame
+            && own.distributed == other.distributed
+            && own.foundation == other.foundation
+            && self.section == model[other.section]
+            && self.material.as_ref() == other.material.map(|material| &model[material])
+            && own.name == other.name
+    }
+
     /// Looks at the whole beam once, so that later evaluations cannot fail.
     fn scan(&mut self, path: &str) -> Result<(), ProblemError> {
         let same = self.uniform && self.loads_uniform && self.beam.distributed.is_empty();

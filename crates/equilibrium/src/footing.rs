@@ -5,6 +5,7 @@ use crate::error::ProblemError;
 use crate::system::Equilibrium;
 use flexura_nonlinear::{BLOCK, Breakdown, System};
 use nalgebra::DMatrix;
+use std::sync::Arc;
 
 /// How the unloaded mechanism stands.
 #[derive(Clone, Debug, PartialEq)]
@@ -204,6 +205,7 @@ impl Equilibrium {
     pub fn soften(&mut self, compliance: f64) {
         self.softening = compliance;
         for law in &mut self.lowered.beams {
+            let law = Arc::make_mut(law);
             law.soften(compliance / (law.wrench_unit[0] * law.scale.force));
         }
         let counts: Vec<usize> = self.meshes.iter().map(|mesh| mesh.segments.len()).collect();

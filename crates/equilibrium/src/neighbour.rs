@@ -8,6 +8,7 @@ use crate::system::Equilibrium;
 use flexura_model::{BeamPoint, Model, ProbeTarget, Quantity};
 use flexura_nonlinear::System;
 use flexura_spatial::Vector3;
+use std::sync::Arc;
 
 /// The law of a model in the units, and on the mesh, of the problem that it was made for.
 #[derive(Clone, Debug)]
@@ -74,7 +75,7 @@ impl Equilibrium {
         model: Model,
         anew: impl Fn(&Lowered, usize) -> Option<SpanMesh>,
     ) -> Result<Law, ProblemError> {
-        let mut lowered = lower::lower(&model, &self.probes, Some(self.lowered.scale))?;
+        let mut lowered = lower::lower(&model, &self.probes, Some(&self.lowered))?;
         lowered.warnings.clone_from(&self.lowered.warnings);
         let alike = lowered.nodes.len() == self.lowered.nodes.len()
             && lowered.joints.len() == self.lowered.joints.len()
@@ -98,9 +99,12 @@ impl Equilibrium {
         let meshes = alike.then(|| {
             let spans = lowered.spans.iter().zip(&self.lowered.spans).zip(&self.meshes).enumerate();
             let moved = spans.map(|(i, ((span, own), mesh))| {
-                let under =
-                    mesh.under((&self.lowered.beams[own.beam], own), (&lowered.beams[span.beam], span));
-                under.or_else(|| anew(&lowered, i))
+                let (law, own_law) = (&lowered.beams[span.beam], &self.lowered.beams[own.beam]);
+                // Nothing has changed that the mesh knows of.
+                if Arc::ptr_eq(law, own_law) && span.is_laid_out_as(own) {
+                    return Some(mesh.clone());
+                }
+                mesh.under((own_law, own), (law, span)).or_else(|| anew(&lowered, i))
             });
             moved.collect::<Option<Vec<_>>>()
         });

@@ -3,7 +3,7 @@
 use flexura_spatial::{Pose, Wrench};
 
 /// Length and force that are 1 inside. Moments scale by their product.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scale {
     /// m.
     pub length: f64,

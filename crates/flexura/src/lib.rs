@@ -79,6 +79,24 @@
 //! # Ok::<(), String>(())
 //! ```
 //!
+//! # Parameters
+//!
+//! A number may follow a formula of parameters, in a model that was read and in one that was built. [`model::Model::at`] makes the
+//! model with other values, in microseconds; sweeps, paths, inverse problems and sensitivities do the same:
+//!
+//! ```
+//! use flexura::{Options, modelfile::Document, modelfile::to_toml};
+//! # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
+//! let mut model = Document::read("models/elastica.toml")?.model(&[])?;
+//! let reach = model.add_parameter("reach", 1.0, "m");
+//! model.bind("beam.rod.length", "reach").map_err(|issue| issue.message)?;
+//! let longer = model.at(&[(reach, 1.1)]).map_err(|issue| issue.message)?;
+//! let solution = flexura::solve(&longer, &Options::default(), &mut |_| {})?;
+//! assert!((solution.beams[0].length - 1.1).abs() < 1e-15);
+//! assert!(to_toml(&longer).map_err(|issue| issue.message)?.contains("length = \"reach\""));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # Many solves
 //!
 //! [`Prepared`] keeps everything that does not change between solves; a load is changed in place, and a solve can start

@@ -20,6 +20,7 @@ use flexura_mechanics::load::PointLoad;
 use flexura_mechanics::spring::{Obstacle, TensionLaw};
 use flexura_model::{BeamId, BeamPoint, LoadFrame, LoadTarget, Model, Mount};
 use flexura_spatial::{Pose, Twist, Vector3, Wrench};
+use std::sync::Arc;
 
 /// What a node stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,6 +93,15 @@ impl Span {
         crate::mesh::order(&mut places, self.s, law.length);
         places.insert(0, self.s[0]);
         places
+    }
+
+    /// Does it run as another does, with jumps at the same places and no channel? What jumps there may differ.
+    pub fn is_laid_out_as(&self, other: &Span) -> bool {
+        self.s == other.s
+            && self.channels.is_empty()
+            && other.channels.is_empty()
+            && self.jumps.len() == other.jumps.len()
+            && self.jumps.iter().zip(&other.jumps).all(|(a, b)| a.s == b.s)
     }
 
     /// Arc lengths (m) of the beam at which something jumps or is not smooth, in no order.
@@ -185,7 +195,7 @@ pub(crate) enum Course {
 #[derive(Clone, Debug)]
 pub(crate) struct Lowered {
     pub scale: Scale,
-    pub beams: Vec<BeamLaw>,
+    pub beams: Vec<Arc<BeamLaw>>,
     /// Start frame of each beam in the undeformed mechanism.
     pub beam_rest: Vec<Pose>,
     pub nodes: Vec<Node>,
@@ -205,20 +215,26 @@ pub(crate) struct Lowered {
 const SNUG: f64 = 1e-9;
 
 /// Lowers a model. `probes` are places on beams whose motion is asked for; `scale` is kept if given, so that states
-/// of neighbouring models can be compared.
+/// of neighbouring models can be compared. Laws of beams that are the same in a neighbouring model are taken over.
 pub(crate) fn lower(
     model: &Model,
     probes: &[BeamPoint],
-    scale: Option<Scale>,
+    neighbour: Option<&Lowered>,
 ) -> Result<Lowered, ProblemError> {
-    let mut beams =
-        (0..model.beams.len()).map(|i| BeamLaw::new(model, BeamId(i))).collect::<Result<Vec<_>, _>>()?;
-    let scale = match scale {
-        Some(scale) => scale,
+    let law = |i: usize| {
+        let kept = neighbour.and_then(|lowered| lowered.beams.get(i));
+        match kept.filter(|law| law.is_of(model, BeamId(i))) {
+            Some(law) => Ok(law.clone()),
+            None => BeamLaw::new(model, BeamId(i)).map(Arc::new),
+        }
+    };
+    let mut beams = (0..model.beams.len()).map(law).collect::<Result<Vec<_>, _>>()?;
+    let scale = match neighbour {
+        Some(lowered) => lowered.scale,
         None => scale_of(model, &beams)?,
     };
-    for beam in &mut beams {
-        beam.set_scale(scale);
+    for beam in beams.iter_mut().filter(|beam| beam.scale != scale) {
+        Arc::make_mut(beam).set_scale(scale);
     }
     let mut lowered = Lowered {
         scale,
@@ -252,7 +268,10 @@ pub(crate) fn lower(
     }
     spans::lay_out(model, &mut lowered)?;
     for (beam, rest) in lowered.beams.iter_mut().zip(&lowered.beam_rest) {
-        beam.founded.rest = scale.pose_out(rest);
+        let rest = scale.pose_out(rest);
+        if beam.founded.rest != rest {
+            Arc::make_mut(beam).founded.rest = rest;
+        }
     }
     spans::place_hubs(model, &mut lowered, probes);
     for i in 0..model.joints.len() {
@@ -294,7 +313,7 @@ fn bounded(model: &Model, lowered: &Lowered, beam: usize) -> Result<(), ProblemE
 }
 
 /// L of the longest beam and EI/L² of its softest stiffness; of the bodies' spread where there is no beam.
-fn scale_of(model: &Model, beams: &[BeamLaw]) -> Result<Scale, ProblemError> {
+fn scale_of(model: &Model, beams: &[Arc<BeamLaw>]) -> Result<Scale, ProblemError> {
     if let Some(longest) = beams.iter().max_by(|a, b| a.length.total_cmp(&b.length)) {
         let length = longest.length;
         return Ok(Scale { length, force: longest.stiffness() / (length * length) });
