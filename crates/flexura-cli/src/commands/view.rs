@@ -9,11 +9,20 @@ use std::fs;
 use std::path::Path;
 
 pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
-    let text = read(&arguments.result)?;
-    let page = report::page(&text).map_err(|error| {
-        Failure::Input(format!("{}: {error}", visible(&arguments.result.to_string_lossy())))
-    })?;
-    let path = arguments.output.clone().unwrap_or_else(|| arguments.result.with_extension("html"));
+    let Some((first, others)) = arguments.results.split_first() else { return Ok(()) };
+    if !others.is_empty() && !arguments.live {
+        return Err(Failure::Input("one page shows one result; with --live it can hold several".to_owned()));
+    }
+    let texts = arguments.results.iter().map(|path| read(path)).collect::<Result<Vec<_>, _>>()?;
+    let page = match &texts[..] {
+        [only] if arguments.live => report::live_page(only),
+        [only] => report::page(only),
+        several => report::live_page_of_many(several),
+    };
+    let named = || arguments.results.iter().map(|path| visible(&path.to_string_lossy()).into_owned());
+    let page =
+        page.map_err(|error| Failure::Input(format!("{}: {error}", named().collect::<Vec<_>>().join(", "))))?;
+    let path = arguments.output.clone().unwrap_or_else(|| first.with_extension("html"));
     files::replace(&path, &page)?;
     screen::note(&format!("wrote {}", visible(&path.to_string_lossy())));
     if !arguments.no_open
