@@ -53,6 +53,8 @@ impl Standing {
 /// The open model.
 pub struct Session {
     pub file: Document,
+    /// The model as the file gives it.
+    source: Model,
     /// The model at the present values.
     pub base: Model,
     pub options: Options,
@@ -69,15 +71,17 @@ impl Session {
     /// Understands a text and prepares what it describes.
     pub fn open(text: &str, name: &str, set: &[(String, String)], is_inverse: bool) -> Result<Self, Trouble> {
         let file = Document::parse(text, name).map_err(|report| Trouble::of_report(&report, text))?;
-        let mut base = file.model(set).map_err(|report| Trouble::of_report(&report, text))?;
-        let has_unknowns = !base.unknowns.is_empty();
+        let mut source = file.model(set).map_err(|report| Trouble::of_report(&report, text))?;
+        let has_unknowns = !source.unknowns.is_empty();
         if !is_inverse {
-            forget_unknowns(&mut base);
+            forget_unknowns(&mut source);
         }
+        let base = source.clone();
         // What is loose or held twice shows here, before anything is solved.
         Prepared::new(&base).map_err(|error| Trouble::of_model(&file, &error))?;
         Ok(Self {
             file,
+            source,
             base,
             options: Options::default(),
             has_unknowns,
@@ -110,19 +114,30 @@ impl Session {
         overrides
     }
 
-    /// The model at other values.
+    /// The model at other values: its numbers follow from the parameters. Where more than numbers does, the text is read again.
     pub fn model_at(&self, place: &Place) -> Result<Model, Trouble> {
-        let mut model = self
-            .file
-            .model_beside(&self.overrides_at(place), &self.base.studies)
-            .map_err(|report| Trouble::of_report(&report, self.file.text()))?;
-        if !self.is_inverse {
-            forget_unknowns(&mut model);
-        }
+        let position = |name: &str| self.source.parameters.iter().position(|own| own.name == name);
+        let values = place.values.iter().filter_map(|(name, value)| Some((position(name)?, *value)));
+        let mut model = match self.source.at(&values.collect::<Vec<_>>()) {
+            Ok(model) => model,
+            Err(_) => self.read_at(place)?,
+        };
         for (load, force) in &place.forces {
             if let Some(load) = model.loads.get_mut(*load) {
                 load.force = *force;
             }
+        }
+        Ok(model)
+    }
+
+    /// The same from the text.
+    fn read_at(&self, place: &Place) -> Result<Model, Trouble> {
+        let mut model = self
+            .file
+            .model_beside(&self.overrides_at(place), &self.source.studies)
+            .map_err(|report| Trouble::of_report(&report, self.file.text()))?;
+        if !self.is_inverse {
+            forget_unknowns(&mut model);
         }
         Ok(model)
     }
