@@ -240,6 +240,12 @@ pub struct ViewArguments {
     /// Put the solver into the page too, which then solves again as things are moved, dragged or rewritten in it
     #[arg(long)]
     pub live: bool,
+    /// Write a still picture of the result; without -o nothing but pictures is written
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Write the same picture as pixels
+    #[arg(long, value_name = "FILE")]
+    pub png: Option<PathBuf>,
     /// Only write the page
     #[arg(long)]
     pub no_open: bool,

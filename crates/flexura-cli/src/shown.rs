@@ -34,6 +34,13 @@ impl Shown {
         Ok(shown)
     }
 
+    /// Still pictures alone.
+    pub fn still(svg: Option<PathBuf>, png: Option<PathBuf>) -> Result<Self, Failure> {
+        let shown = Self { svg, png, ..Self::default() };
+        shown.paths().try_for_each(page::begin)?;
+        Ok(shown)
+    }
+
     /// The page of a result document, as it was asked for.
     pub fn page_of(&self, document: &str) -> Result<String, Failure> {
         page::of_text(document, self.is_live)

@@ -31,12 +31,15 @@ const CASES = [
   ["cantilever_strip", true, "payload", 0.04, 0.04],
 ];
 const COUNT = 400;
+/** Steps before the clock starts: the module is compiled anew for speed while it runs. */
+const BEFORE = 300;
 
 for (const [name, inverse, parameter, middle, width] of CASES) {
   const ask = solver();
   const text = readFileSync(new URL(`models/${name}.toml`, root), "utf8");
   ask({ do: "open", text, name: `${name}.toml`, inverse });
   ask({ do: "solve", samples: 0 });
+  for (let i = 0; i < BEFORE; i++) ask({ do: "step", values: [[parameter, middle + 0.5 * width * Math.sin((2 * Math.PI * i) / 100)]], samples: 0 });
   for (const samples of [0, 41]) {
     const times = [];
     for (let i = 0; i < COUNT; i++) {
@@ -49,6 +52,6 @@ for (const [name, inverse, parameter, middle, width] of CASES) {
     times.sort((a, b) => a - b);
     const what = samples === 0 ? "the step alone" : `with a document of ${samples} samples a beam`;
     const kind = inverse && name === "six_rod_robot" ? "inverse" : "forward";
-    console.log(`${name.padEnd(18)} ${kind}  ${what}: median ${times[COUNT / 2].toFixed(3)} ms, 95 % ${times[Math.floor(0.95 * COUNT)].toFixed(3)} ms`);
+    console.log(`${name.padEnd(18)} ${kind}  ${what}: median ${times[COUNT / 2].toFixed(3)} ms, a quarter below ${times[COUNT / 4].toFixed(3)} ms`);
   }
 }

@@ -2,8 +2,11 @@
 
 use crate::arguments::ViewArguments;
 use crate::failure::Failure;
+use crate::shown::Shown;
 use crate::{files, page, screen};
-use flexura::model::visible;
+use flexura::model::{Model, visible};
+use flexura::modelfile::{Document, Report};
+use flexura::output::kept_pictures;
 use flexura::report;
 use std::fs;
 use std::path::Path;
@@ -14,6 +17,23 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
         return Err(Failure::Input("one page shows one result; with --live it can hold several".to_owned()));
     }
     let texts = arguments.results.iter().map(|path| read(path)).collect::<Result<Vec<_>, _>>()?;
+    let shown = Shown::still(arguments.svg.clone(), arguments.png.clone())?;
+    if shown.wants_picture() {
+        let mut pictures = Vec::new();
+        for (path, text) in arguments.results.iter().zip(&texts) {
+            let drawn = kept_pictures(text, &mut |text, values| model_of(text, values));
+            pictures.extend(
+                drawn.map_err(|error| {
+                    Failure::Input(format!("{}: {error}", visible(&path.to_string_lossy())))
+                })?,
+            );
+        }
+        shown.write(None, &pictures)?;
+        shown.tell();
+        if arguments.output.is_none() && !arguments.live {
+            return Ok(());
+        }
+    }
     let page = match &texts[..] {
         [only] if arguments.live => report::live_page(only),
         [only] => report::page(only),
@@ -31,6 +51,22 @@ pub fn run(arguments: &ViewArguments) -> Result<(), Failure> {
         screen::warn(&format!("no browser could be started ({why}); open the file yourself"));
     }
     Ok(())
+}
+
+/// The model of a text with these values (SI) of its parameters.
+fn model_of(text: &str, values: &[(String, f64)]) -> Result<Model, String> {
+    let wrong = |report: Report| {
+        let message = report.problems().first().map(|problem| problem.message.clone()).unwrap_or_default();
+        format!("its model file is refused: {message}")
+    };
+    let file = Document::parse(text, "the model file in the result").map_err(wrong)?;
+    let units = file.model(&[]).map_err(wrong)?.parameters;
+    let typed = values.iter().filter_map(|(name, value)| {
+        let unit = &units.iter().find(|parameter| parameter.name == *name)?.unit;
+        // The shortest text that reads back as the same number.
+        Some((name.clone(), format!("{value:e} {unit}")))
+    });
+    file.model(&typed.collect::<Vec<_>>()).map_err(wrong)
 }
 
 fn read(path: &Path) -> Result<String, Failure> {
