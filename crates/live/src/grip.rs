@@ -213,7 +213,7 @@ impl Session {
         let (place, _) = self.nudged(input, DIFFERENCE);
         let changed = self.model_at(&place).ok()?;
         let mut after = standing.clone();
-        if !self.put(&mut after, &changed, &place) {
+        if !self.put(&mut after, &changed) {
             return None;
         }
         let size = self.units().0;
@@ -329,7 +329,7 @@ impl Session {
             let model = self.model_at(&place).ok()?;
             let mut before = self.standing.clone()?;
             let mut after = before.clone();
-            let is_there = self.put(&mut after, &model, &place);
+            let is_there = self.put(&mut after, &model);
             let shift = where_is(&mut after, spot)? - where_is(&mut before, spot)?;
             is_there.then_some(shift / DIFFERENCE)
         };

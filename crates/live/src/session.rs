@@ -7,7 +7,7 @@ use flexura::model::{CoordinateLaw, Drive, Model};
 use flexura::modelfile::Document;
 use flexura::solution::{Solution, Status};
 use flexura::spatial::Vector3;
-use flexura::{FileFamily, Options, Outcome, Prepared, output, post};
+use flexura::{ModelFamily, Options, Outcome, Prepared, output, post};
 
 /// Shortest part of a change of values that is tried before an equilibrium is looked for from rest.
 const SHORTEST: f64 = 1.0 / 256.0;
@@ -134,7 +134,7 @@ impl Session {
     fn read_at(&self, place: &Place) -> Result<Model, Trouble> {
         let mut model = self
             .file
-            .model_beside(&self.overrides_at(place), &self.source.studies)
+            .model(&self.overrides_at(place))
             .map_err(|report| Trouble::of_report(&report, self.file.text()))?;
         if !self.is_inverse {
             forget_unknowns(&mut model);
@@ -158,7 +158,7 @@ impl Session {
     /// The equilibrium from rest.
     pub fn solve(&mut self, samples: usize) -> Result<Answer, Trouble> {
         let model = self.model_at(&self.place)?;
-        let standing = self.cold(&model, &self.place)?;
+        let standing = self.cold(&model)?;
         self.stand(standing, self.place.clone());
         Ok(Answer { way: Some(Way::Rest), ..self.answer(samples)? })
     }
@@ -212,7 +212,7 @@ impl Session {
             self.stand(standing, wanted);
             return Ok((Way::Near, None));
         }
-        let standing = self.cold(&model, &wanted)?;
+        let standing = self.cold(&model)?;
         let reason = standing.outcome.reason.clone();
         if standing.is_converged() || self.standing.as_ref().is_none_or(|before| !before.is_converged()) {
             self.stand(standing, wanted);
@@ -228,15 +228,13 @@ impl Session {
     }
 
     /// From rest.
-    fn cold(&self, model: &Model, place: &Place) -> Result<Standing, Trouble> {
+    fn cold(&self, model: &Model) -> Result<Standing, Trouble> {
         let mut prepared = Prepared::new(model).map_err(|error| Trouble::of_model(&self.file, &error))?;
         let tolerance = self.options.tolerance;
         let outcome = if model.unknowns.is_empty() {
             prepared.solve(tolerance, &mut |_| {})
         } else {
-            let overrides = self.overrides_at(place);
-            let mut family = FileFamily::new(&self.file, &overrides, model);
-            prepared.solve_inverse(&mut family, tolerance, &mut |_| {})
+            prepared.solve_inverse(&mut ModelFamily::new(model), tolerance, &mut |_| {})
         };
         Ok(Standing { prepared, outcome })
     }
@@ -251,7 +249,7 @@ impl Session {
             let at = mixed(&from, wanted, next);
             let between = if next < 1.0 { Some(self.model_at(&at).ok()?) } else { None };
             let mut ahead = here.as_ref().unwrap_or(start).clone();
-            if self.put(&mut ahead, between.as_ref().unwrap_or(whole), &at) {
+            if self.put(&mut ahead, between.as_ref().unwrap_or(whole)) {
                 if next >= 1.0 {
                     return Some(ahead);
                 }
@@ -267,7 +265,7 @@ impl Session {
     }
 
     /// Puts a neighbouring model under a state and corrects that; false where no equilibrium is near.
-    pub fn put(&self, standing: &mut Standing, model: &Model, place: &Place) -> bool {
+    pub fn put(&self, standing: &mut Standing, model: &Model) -> bool {
         let tolerance = self.options.tolerance;
         let Standing { prepared, outcome } = standing;
         if model.unknowns.is_empty() {
@@ -276,9 +274,7 @@ impl Session {
             }
             *outcome = prepared.solve_near_here(tolerance);
         } else {
-            let overrides = self.overrides_at(place);
-            let mut family = FileFamily::new(&self.file, &overrides, model);
-            *outcome = prepared.solve_inverse_from_here(&mut family, tolerance);
+            *outcome = prepared.solve_inverse_from_here(&mut ModelFamily::new(model), tolerance);
         }
         outcome.status == Status::Converged
     }

@@ -4,7 +4,7 @@ use crate::problems::Trouble;
 use crate::request::{Answer, AnyDocument};
 use crate::session::Session;
 use flexura::model::{BuckleStudy, InverseDynamicsStudy, StudyKind, TraceStudy};
-use flexura::{Buckled, FileFamily, Options, ProblemError, motion_view, output, trace_view};
+use flexura::{Buckled, Options, ProblemError, motion_view, output};
 
 /// Sections along each beam of the shapes along a path.
 const SHAPES: usize = 17;
@@ -38,12 +38,11 @@ impl Session {
     }
 
     fn follow(&mut self, name: &str, study: &TraceStudy) -> Result<Answer, Trouble> {
-        let (model, overrides) = (self.plain_model(), self.overrides());
-        let mut family = FileFamily::new(&self.file, &overrides, &model);
+        let model = self.plain_model();
         let options = Options { shapes: SHAPES, ..self.options.clone() };
-        let trace = flexura::trace(&model, &mut family, study, &options, &mut |_| {})
+        let trace = flexura::trace(&model, study, &options, &mut |_| {})
             .map_err(|error| self.of_study(name, &error))?;
-        let mut document = output::trace_document(&trace_view(&model, study, &trace, &mut family))
+        let mut document = output::trace_document(&output::TraceView::new(&model, study, &trace))
             .map_err(|error| Trouble::plain(error.to_string()))?;
         if let Some(scene) = &mut document.scene {
             scene.text = Some(self.file.text().to_owned());
@@ -52,19 +51,17 @@ impl Session {
     }
 
     fn buckle(&mut self, name: &str, study: &BuckleStudy) -> Result<Answer, Trouble> {
-        let (model, overrides) = (self.plain_model(), self.overrides());
-        let mut family = FileFamily::new(&self.file, &overrides, &model);
-        let buckled = Buckled::new(&model, &mut family, study, &self.options)
-            .map_err(|error| self.of_study(name, &error))?;
+        let model = self.plain_model();
+        let buckled =
+            Buckled::new(&model, study, &self.options).map_err(|error| self.of_study(name, &error))?;
         let mut document = buckled.document().map_err(|error| Trouble::plain(error.to_string()))?;
         document.scene.text = Some(self.file.text().to_owned());
         Ok(Answer { document: Some(AnyDocument::Buckling(Box::new(document))), ..Answer::default() })
     }
 
     fn travel(&mut self, name: &str, study: &InverseDynamicsStudy) -> Result<Answer, Trouble> {
-        let (model, overrides) = (self.plain_model(), self.overrides());
-        let mut family = FileFamily::new(&self.file, &overrides, &model);
-        let motion = flexura::inverse_dynamics(&model, &mut family, study, &self.options, &mut |_| {})
+        let model = self.plain_model();
+        let motion = flexura::inverse_dynamics(&model, study, &self.options, &mut |_| {})
             .map_err(|error| self.of_study(name, &error))?;
         let mut document = output::motion_document(&motion_view(&model, &motion))
             .map_err(|error| Trouble::plain(error.to_string()))?;

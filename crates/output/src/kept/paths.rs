@@ -34,12 +34,7 @@ pub fn trace(document: &Value, make: &mut Make<'_>) -> Result<Vec<String>, ReadE
         work: TraceWork::default(),
     };
     let study = TraceStudy { parameter, range, ..TraceStudy::default() };
-    let mut again = |values: &[(usize, f64)]| {
-        let named: Vec<(String, f64)> =
-            values.iter().map(|(i, value)| (model.parameters[*i].name.clone(), *value)).collect();
-        model_of(document, &named, make).ok()
-    };
-    let view = TraceView::new(&model, &study, &trace, &mut again);
+    let view = TraceView::new(&model, &study, &trace);
     Ok(vec![diagram_svg(&view), shapes_svg(&view)])
 }
 
