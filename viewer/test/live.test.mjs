@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { browser, opened } from "./chrome.mjs";
-import { made, madeOf, model, settled, text } from "./support.mjs";
+import { made, madeOf, model, settled, text, written } from "./support.mjs";
 
 /** A cantilever under a force at its tip; length and bending stiffness are one. */
 const ELASTICA = text(model("elastica"));
@@ -22,6 +22,7 @@ before(async () => {
     document.addEventListener("securitypolicyviolation", (event) => window.violations.push(`${event.violatedDirective} ${event.blockedURI}`));
   });
   ({ page, complaints } = await opened(context, madeOf("live", ELASTICA, "solve", "--live").page));
+  page.setDefaultTimeout(15_000);
   await page.waitForFunction(() => document.documentElement.dataset.live !== undefined);
 });
 after(() => chrome.close());
@@ -120,6 +121,52 @@ test("a mistake in the text is told at its line, and mending it solves again", a
   await page.waitForFunction(() => document.querySelectorAll("#problems .wrong").length === 0);
   await idle();
   assert.ok(far(await tip(), AT_1) < 2e-5, String(await tip()));
+});
+
+test("a driven body is dragged: the robot's plate goes where the pointer is, and its rods follow", async () => {
+  const { page: robot, complaints: said } = await opened(context, made("robot", "solve", model("six_rod_robot"), "--live").page);
+  await robot.waitForFunction(() => document.documentElement.dataset.live !== undefined && !window.live.isBusy);
+  await robot.evaluate(() => window.flexura.look("right"));
+  await settled(robot);
+  const ring = robot.locator(".grip.drive");
+  const middle = async () => {
+    const box = await ring.boundingBox();
+    return [box.x + box.width / 2, box.y + box.height / 2];
+  };
+  const state = () =>
+    robot.evaluate(() => {
+      const { bodies, parameters, status } = window.flexura.app.study.document;
+      return { plate: bodies.plate.position, lengths: [1, 2, 3, 4, 5, 6].map((i) => parameters[`length_${i}`]), status };
+    });
+  const [[x, y], before] = [await middle(), await state()];
+  await robot.mouse.move(x, y);
+  await robot.mouse.down();
+  for (let i = 1; i <= 10; i++) await robot.mouse.move(x + 4 * i, y - 2 * i);
+  await robot.waitForFunction(() => !window.live.isBusy);
+  await robot.mouse.up();
+  await robot.waitForFunction(() => !window.live.isBusy);
+  await settled(robot);
+  const [after, [newX, newY]] = [await state(), await middle()];
+  assert.equal(after.status, "converged");
+  assert.ok(Math.hypot(newX - x - 40, newY - y + 20) < 3, `${newX - x}, ${newY - y}`);
+  assert.ok(after.plate[1] > before.plate[1] + 5e-3 && after.plate[2] > before.plate[2] + 2e-3, `${after.plate}`);
+  assert.ok(after.lengths.some((length, i) => Math.abs(length - before.lengths[i]) > 1e-3));
+  assert.deepEqual(said, []);
+  await robot.close();
+});
+
+test("the live page works in a frame, as a notebook has it", async () => {
+  const escaped = text(made("framed", "solve", model("lee_frame"), "--live").page).replaceAll("&", "&amp;").replaceAll('"', "&quot;");
+  const host = written("live-host.html", `<!doctype html><iframe width="1200" height="700" srcdoc="${escaped}"></iframe>`);
+  const outer = await context.newPage();
+  await outer.goto(`file://${host}`);
+  const frame = await (await outer.waitForSelector("iframe")).contentFrame();
+  await frame.waitForFunction(() => document.documentElement.dataset.live !== undefined && !window.live?.isBusy);
+  assert.equal(await frame.evaluate(() => document.documentElement.dataset.live), "true");
+  await frame.locator("#value-load").fill("0.5");
+  await frame.locator("#value-load").press("Enter");
+  await frame.waitForFunction(() => window.flexura.app.study.document.parameters.load === 0.5);
+  await outer.close();
 });
 
 test("a text that tries to be markup stays text", async () => {

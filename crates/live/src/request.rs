@@ -167,6 +167,8 @@ pub struct ParameterDocument {
     unit: String,
     range: [f64; 2],
     is_found: bool,
+    /// Does it decide of which parts the mechanism is made? Then it is moved in whole steps.
+    is_structural: bool,
 }
 
 impl Opened {
@@ -178,6 +180,7 @@ impl Opened {
             value: parameter.value,
             unit: parameter.unit.clone(),
             range: range_of(session, i),
+            is_structural: parameter.is_structural,
             is_found: model.unknowns.iter().any(|unknown| unknown.parameter == i),
         });
         let word = |kind: &StudyKind| kind.word();

@@ -221,3 +221,15 @@ fn a_request_that_makes_no_sense_is_answered() {
         assert_eq!(answer["problems"].as_array().map(Vec::len), Some(1), "{request}: {answer}");
     }
 }
+
+/// The lattice of n columns and rows has 2 n (n - 1) beams between its nodes and n at its side.
+#[test]
+fn a_parameter_that_decides_of_which_parts_a_mechanism_is_made_is_stepped_from_rest() {
+    let mut live = opened("lattice");
+    for n in [4, 3] {
+        let answer = ask(&mut live, &json!({ "do": "step", "values": [["n", n]], "samples": 5 }));
+        assert_eq!(answer["way"], "rest", "{answer}");
+        let beams = answer["document"]["beams"].as_object().expect("beams").len();
+        assert_eq!(beams, 2 * n * (n - 1) + n);
+    }
+}

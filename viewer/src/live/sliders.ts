@@ -36,7 +36,8 @@ export class Sliders {
     const slider = h("input", { type: "range", id: `parameter-${parameter.name}`, min: 0, max: STEPS, step: "any", disabled: isFound });
     const field = h("input", { type: "text", class: "value", "aria-label": `value of ${parameter.name}, with its unit`, disabled: isFound, id: `value-${parameter.name}` });
     slider.addEventListener("input", () => {
-      const value = low + ((high - low) * Number(slider.value)) / STEPS;
+      const along = low + ((high - low) * Number(slider.value)) / STEPS;
+      const value = parameter.is_structural ? Math.round(along) : along;
       this.show({ parameter, slider, field }, value, true);
       this.moved(parameter.name, value);
     });

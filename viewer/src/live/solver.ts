@@ -23,6 +23,7 @@ export interface Parameter {
   unit: string;
   range: [number, number];
   is_found: boolean;
+  is_structural: boolean;
 }
 
 export interface Grip {
