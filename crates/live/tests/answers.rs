@@ -165,3 +165,19 @@ fn the_kept_module_gives_the_solvers_answers() {
     let converged = own.iter().filter(|own| own["document"]["status"] == "converged").count();
     assert!(converged > models.len() / 2, "{converged} models converged");
 }
+
+#[test]
+fn an_answer_that_is_off_by_more_than_the_estimates_is_told() {
+    let own = native(&root().join("models/elastica.toml"));
+    assert_eq!(difference(&own, &own), None);
+    let mut other = own.clone();
+    let tip = &mut other["document"]["beams"]["rod"]["position"][SAMPLES - 1][1];
+    *tip = json!(number(tip) + 1e-7);
+    assert!(difference(&own, &other).is_some_and(|why| why.starts_with("positions differ by 1.0e-7")));
+    let mut other = own.clone();
+    other["document"]["stable"] = json!(false);
+    assert!(difference(&own, &other).is_some_and(|why| why.starts_with("stable")));
+    let mut other = own.clone();
+    other["document"].as_object_mut().expect("a document").remove("energy");
+    assert!(difference(&own, &other).is_some_and(|why| why.contains("energy")));
+}

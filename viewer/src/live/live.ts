@@ -100,7 +100,8 @@ export class Live {
       return;
     }
     this.editor.fill(text);
-    const given = Object.entries(document.parameters ?? {});
+    const [first] = Object.values((document.studies as Record<string, ResultDocument> | undefined) ?? {});
+    const given = Object.entries(document.parameters ?? first?.parameters ?? {});
     await this.open(text, given, document.study !== "solve" || document.status !== "converged");
   }
 
