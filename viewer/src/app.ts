@@ -97,8 +97,26 @@ export class App {
     this.open(0);
   }
 
+  /** Shows another document of the same mechanism; unless it is to be fitted, the eye stays where it is. */
+  replace(document_: ResultDocument, keepsView: boolean): void {
+    const studies = studiesOf(document_);
+    const [first] = studies.map(([, study]) => study);
+    this.studies.splice(0, this.studies.length, ...studies);
+    const heading = this.root.querySelector("h1");
+    if (heading) heading.textContent = document_.model || "mechanism";
+    document.title = `${document_.model || "mechanism"} – flexura`;
+    const isAlike = keepsView && first?.kind === "solve" && this.study.kind === "solve";
+    if (!first || !isAlike) {
+      this.open(0, !keepsView);
+      return;
+    }
+    this.study = first;
+    this.range = this.options.quantity ? rangeOf(first, this.options.quantity) : null;
+    this.go({ branch: 0, point: 0 });
+  }
+
   /** Shows one of the studies from its start. */
-  open(index: number): void {
+  open(index: number, fits = true): void {
     this.stop();
     this.study = this.studies[index]![1];
     this.mode = 0;
@@ -116,7 +134,7 @@ export class App {
     const choose = (chosen: Spot): void => this.go(chosen);
     if (hosts.plot) this.plots.push(new Plot(hosts.plot, this.study, this.theme, choose));
     if (hosts.parallel) this.plots.push(new Parallel(hosts.parallel, this.study, this.theme, choose));
-    this.viewport.fit(this.box, "own");
+    if (fits) this.viewport.fit(this.box, "own");
     this.go(spot);
   }
 

@@ -1,7 +1,7 @@
 // Times that a person waits: no test, since a busy machine would fail it.
 
 import { browser, opened } from "./chrome.mjs";
-import { BENT, made, madeOf, model, settled, shown } from "./support.mjs";
+import { BENT, made, madeOf, model, settled, shown, text } from "./support.mjs";
 
 const chrome = await browser();
 const context = await chrome.newContext({ viewport: { width: 1200, height: 760 } });
@@ -56,4 +56,32 @@ await timed("path of 10 000 points", shown("path", { ...document, branches: [{ .
     return performance.now() - start;
   },
 });
+
+// Warm steps in the worker of the live page: other values, solved from where it stands; without what is drawn of them.
+for (const [name, inverse, parameter, middle, width] of [
+  ["six_rod_robot", false, "length_1", 0.5, 0.02],
+  ["six_rod_robot", true, "y", 0.02, 0.02],
+  ["lee_frame", true, "load", 0.8, 0.8],
+]) {
+  const { page } = await opened(context, made(`live-${name}`, "solve", model(name), "--live").page);
+  await page.waitForFunction(() => document.documentElement.dataset.live !== undefined);
+  const took = await page.evaluate(
+    async ({ text, inverse, parameter, middle, width }) => {
+      const ask = (request) => window.live.solver.ask(request);
+      await ask({ do: "open", text, name: "model.toml", inverse });
+      await ask({ do: "solve", samples: 0 });
+      const times = [];
+      for (let i = 0; i < 600; i++) {
+        const value = middle + 0.5 * width * Math.sin((2 * Math.PI * i) / 100);
+        const answer = await ask({ do: "step", values: [[parameter, value]], samples: 0 });
+        if (answer.way !== "near") throw new Error(JSON.stringify(answer).slice(0, 300));
+        if (i >= 300) times.push(answer.took);
+      }
+      return times.sort((a, b) => a - b)[150];
+    },
+    { text: text(model(name)), inverse, parameter, middle, width },
+  );
+  console.log(`${name}, ${inverse && name === "six_rod_robot" ? "inverse" : "forward"}: a warm step takes ${took.toFixed(2)} ms in the page`);
+  await page.close();
+}
 await chrome.close();

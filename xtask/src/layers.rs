@@ -13,7 +13,7 @@ const FLOORS: &[&[&str]] = &[
     &["output"],
     &["report", "raster"],
     &["flexura"],
-    &["flexura-cli"],
+    &["flexura-cli", "live"],
 ];
 
 /// Rooms that may use everything and that nothing may use except in tests.

@@ -5,6 +5,7 @@
 //! cargo xtask generate   rewrite the files that are generated
 //! cargo xtask page       rebuild the page that shows results, from viewer/
 //! cargo xtask pictures   photograph the page: the gallery, and the pictures of the README
+//! cargo xtask live       build the solver for the live page (minutes)
 //! cargo xtask tidy       the checks that compile nothing
 //! cargo xtask campaign   random mechanisms and damaged files for every verb, their answers verified by other means
 //! ```
@@ -16,6 +17,7 @@
 mod campaign;
 mod generate;
 mod layers;
+mod live;
 mod map;
 mod python;
 mod step;
@@ -25,7 +27,7 @@ mod viewer;
 
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: cargo xtask <test | generate | page | pictures | tidy | campaign [--seed S] [--count N] [--jobs J]>";
+const USAGE: &str = "usage: cargo xtask <test | generate | page | pictures | live | tidy | campaign [--seed S] [--count N] [--jobs J]>";
 
 fn main() -> ExitCode {
     let verb = std::env::args().nth(1).unwrap_or_default();
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
         "generate" => generate::write(),
         "page" => viewer::build(),
         "pictures" => generate::build().and_then(|()| viewer::pictures()),
+        "live" => live::build(),
         "tidy" => tidy::run(),
         "campaign" => campaign::run(std::env::args().skip(2)),
         _ => Err(USAGE.to_string()),

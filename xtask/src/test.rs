@@ -1,7 +1,7 @@
 //! Everything that must hold, cheapest first.
 
 use crate::step::{Outcome, Step, check, exists};
-use crate::{generate, python, tidy, viewer};
+use crate::{generate, live, python, tidy, viewer};
 use std::path::Path;
 
 pub fn run() -> Outcome {
@@ -17,6 +17,7 @@ pub fn run() -> Outcome {
         .run()?;
     generate::build()?;
     viewer::test()?;
+    check("the live page of the documentation is up to date", "live", live::check)?;
     check("generated files are up to date", "test", generate::check)?;
     python::check_schema(&python)?;
     println!("\nall checks and tests passed");

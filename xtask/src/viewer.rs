@@ -9,8 +9,8 @@ use std::process::Command;
 
 /// Vite wants at least this version of Node.
 const NODE: (u32, u32) = (20, 19);
-/// Where the built page is kept.
-const PAGE: &str = "crates/report/src/page.html";
+/// Where the built pages are kept: that of a result, and the one that solves.
+const PAGES: [&str; 2] = ["crates/report/src/page.html", "crates/report/src/live.html"];
 /// Pictures of the page that the README shows: name, camera and what is done first, and the study.
 const SHOWN: &[(&str, &str, &[&str])] = &[
     ("page_lee_frame", "whole", &["run", "models/lee_frame.toml", "path"]),
@@ -38,16 +38,22 @@ pub fn build() -> Outcome {
     npm("the page", "run build").run()
 }
 
-/// The page must be what a build of its sources gives, byte for byte.
+/// The pages must be what a build of their sources gives, byte for byte.
 pub fn check() -> Outcome {
-    let path = root().join(PAGE);
-    let kept = read(&path)?;
+    let pages = PAGES.map(|page| root().join(page));
+    let kept = pages.iter().map(|path| read(path)).collect::<Result<Vec<_>, _>>()?;
     build()?;
-    if read(&path)? == kept {
+    let mut stale = Vec::new();
+    for ((path, kept), name) in pages.iter().zip(&kept).zip(PAGES) {
+        if read(path)? != *kept {
+            write(path, kept)?;
+            stale.push(name);
+        }
+    }
+    if stale.is_empty() {
         return Ok(());
     }
-    std::fs::write(&path, kept).map_err(|error| format!("{}: {error}", path.display()))?;
-    Err(format!("{PAGE} is out of date; mend it with\n\n    cargo xtask page\n"))
+    Err(format!("out of date: {}; mend that with\n\n    cargo xtask page\n", stale.join(", ")))
 }
 
 /// Tests in a browser; the command must be built.
@@ -60,6 +66,7 @@ pub fn test() -> Outcome {
         .argument(viewer().join("test/studies.test.mjs"))
         .argument(viewer().join("test/safety.test.mjs"))
         .argument(viewer().join("test/pictures.test.mjs"))
+        .argument(viewer().join("test/live.test.mjs"))
         .variable("FLEXURA", program().display().to_string())
         .run()?;
     checked("pictures of the page are up to date", "pictures", check_pictures)
@@ -119,7 +126,7 @@ fn photograph(flags: &str) -> Result<String, String> {
 }
 
 const HEAD: &str = "# Gallery\n\nEvery example that `flexura examples` lists, as the page of its result shows it (`--report FILE`): beams coloured by their \
-                    stress where they have one.\nThese pictures are made by `cargo xtask pictures`.\n\n";
+                    stress where they have one.\nThese pictures are made by `cargo xtask pictures`. Six of the examples can be moved and solved again in [one page](live.html), made by `cargo xtask live`.\n\n";
 
 /// A model with studies shows the first of them.
 fn study(text: &str) -> &'static str {

@@ -48,7 +48,7 @@ impl Task {
         }
         let folder = folder.map(Path::to_path_buf);
         let (is_json, is_quiet) = (arguments.json, arguments.quiet);
-        let shown = Shown::new(shown)?;
+        let shown = Shown::new(shown, folder.is_some())?;
         if is_json || folder.is_some() || shown.wants_page() {
             options.shapes = SHAPE;
         }
@@ -118,7 +118,7 @@ impl Task {
         let (Some(folder), Some(document)) = (folder, &answer.document) else { return Ok(None) };
         let names = answer.files.iter().map(|(name, _)| *name).chain([page::NAME]).collect();
         let text = json(&Written { document, files: names })?;
-        answer.files.push((page::NAME, page::of_text(&text)?));
+        answer.files.push((page::NAME, self.shown.page_of(&text)?));
         files::replace_all(folder, &text, &answer.files)?;
         answer.growing.take().into_iter().for_each(Growing::finish);
         Ok(Some(text))

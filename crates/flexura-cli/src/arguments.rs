@@ -56,11 +56,14 @@ pub struct ModelArguments {
     pub quiet: bool,
 }
 
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct ShownArguments {
     /// Write one HTML page that shows the result, with all that it needs
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
+    /// Put the solver into the page too: it solves again as values are moved, things dragged or the file changed in it
+    #[arg(long)]
+    pub live: bool,
     /// Write a still picture of the result
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
@@ -228,11 +231,21 @@ pub struct ExamplesArguments {
 
 #[derive(Args)]
 pub struct ViewArguments {
-    /// The result document (result.json) of any study
-    pub result: PathBuf,
+    /// The result document (result.json) of any study; several with --live, to be chosen from in the page
+    #[arg(required = true)]
+    pub results: Vec<PathBuf>,
     /// Write the page into this file [default: beside the result, with the ending .html]
     #[arg(long, short = 'o', value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Put the solver into the page too, which then solves again as things are moved, dragged or rewritten in it
+    #[arg(long)]
+    pub live: bool,
+    /// Write a still picture of the result; without -o nothing but pictures is written
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Write the same picture as pixels
+    #[arg(long, value_name = "FILE")]
+    pub png: Option<PathBuf>,
     /// Only write the page
     #[arg(long)]
     pub no_open: bool,

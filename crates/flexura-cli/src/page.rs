@@ -9,9 +9,10 @@ use std::process::{Command, Stdio};
 /// Name of the page in a folder of results.
 pub const NAME: &str = "report.html";
 
-/// The page of a result document.
-pub fn of_text(text: &str) -> Result<String, Failure> {
-    report::page(text).map_err(|error| Failure::Machine(error.to_string()))
+/// The page of a result document, with the solver in it if that is wanted.
+pub fn of_text(text: &str, is_live: bool) -> Result<String, Failure> {
+    let page = if is_live { report::live_page } else { report::page };
+    page(text).map_err(|error| Failure::Machine(error.to_string()))
 }
 
 /// Hours of work should not end at a folder that is not there.

@@ -17,15 +17,33 @@ pub struct Shown {
     page: Option<PathBuf>,
     svg: Option<PathBuf>,
     png: Option<PathBuf>,
+    is_live: bool,
 }
 
 impl Shown {
-    /// Refuses what could not be written in the end.
-    pub fn new(arguments: &ShownArguments) -> Result<Self, Failure> {
-        let shown =
-            Self { page: arguments.report.clone(), svg: arguments.svg.clone(), png: arguments.png.clone() };
+    /// Refuses what could not be written in the end; `has_folder` says that a page is written into a folder besides.
+    pub fn new(arguments: &ShownArguments, has_folder: bool) -> Result<Self, Failure> {
+        let ShownArguments { report: page, live: is_live, svg, png } = arguments.clone();
+        if is_live && page.is_none() && !has_folder {
+            return Err(Failure::Input(
+                "--live puts the solver into a page; say where to write that: --report FILE".to_owned(),
+            ));
+        }
+        let shown = Self { page, svg, png, is_live };
         shown.paths().try_for_each(page::begin)?;
         Ok(shown)
+    }
+
+    /// Still pictures alone.
+    pub fn still(svg: Option<PathBuf>, png: Option<PathBuf>) -> Result<Self, Failure> {
+        let shown = Self { svg, png, ..Self::default() };
+        shown.paths().try_for_each(page::begin)?;
+        Ok(shown)
+    }
+
+    /// The page of a result document, as it was asked for.
+    pub fn page_of(&self, document: &str) -> Result<String, Failure> {
+        page::of_text(document, self.is_live)
     }
 
     fn paths(&self) -> impl Iterator<Item = &Path> {
@@ -50,7 +68,7 @@ impl Shown {
     /// Writes the page of a result document, and pictures (SVG) on one sheet.
     pub fn write(&self, document: Option<&str>, pictures: &[String]) -> Result<(), Failure> {
         if let (Some(path), Some(document)) = (&self.page, document) {
-            files::replace(path, page::of_text(document)?)?;
+            files::replace(path, self.page_of(document)?)?;
         }
         if pictures.is_empty() || !self.wants_picture() {
             return Ok(());

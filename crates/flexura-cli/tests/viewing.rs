@@ -74,6 +74,81 @@ fn every_study_draws_a_still_picture_as_svg_and_as_png() {
     }
 }
 
+/// The numbers of a drawing, and what stands between them.
+fn parts(svg: &str) -> (Vec<f64>, String) {
+    let is_number = |c: char| c.is_ascii_digit() || c == '.' || c == '-';
+    let numbers = svg.split(|c| !is_number(c)).filter_map(|number| number.parse().ok()).collect();
+    (numbers, svg.chars().filter(|c| !is_number(*c)).collect())
+}
+
+/// Rest shapes are read between the places at which a document tells them: pixels may differ by parts of one.
+#[test]
+fn a_kept_result_is_drawn_as_it_was_when_it_was_found() {
+    let folder = folder("a_kept_result_is_drawn");
+    let (svg, again, png) = (folder.join("a.svg"), folder.join("b.svg"), folder.join("b.png"));
+    let result = folder.join("result.json");
+    let studies: [&[&str]; 11] = [
+        &["run", "lee_frame.toml"],
+        &["solve", "tendon_robot.toml", "--set", "pull_1=3 N"],
+        &["solve", "six_rod_robot.toml"],
+        &["solve", "curved_hook.toml"],
+        &["solve", "concentric_tubes.toml"],
+        &["solve", "lee_frame.toml", "--set", "load=2.5"],
+        &["trace", "lee_frame.toml", "--parameter", "load", "--range", "0:2.5"],
+        &["trace", "euler_clamped_pinned.toml", "--parameter", "length", "--range", "200 mm:250 mm"],
+        &["buckle", "euler_clamped_pinned.toml", "--parameter", "push"],
+        &["run", "rigid_four_bar.toml"],
+        &["sweep", "cantilever_strip.toml", "--vary", "payload=10 g:50 g:3"],
+    ];
+    for study in studies {
+        let output = run(&[study, &["--svg", shown(&svg), "--json"]].concat());
+        std::fs::write(&result, &output.stdout).unwrap();
+        let output = run(&["view", shown(&result), "--svg", shown(&again), "--png", shown(&png)]);
+        assert_eq!(code(&output), 0, "{study:?}: {}", stderr(&output));
+        assert!(!folder.join("result.html").exists());
+        assert!(std::fs::read(&png).unwrap().starts_with(b"\x89PNG"));
+        let [first, second] = [&svg, &again].map(|path| parts(&std::fs::read_to_string(path).unwrap()));
+        assert_eq!(first.1, second.1, "{study:?}");
+        let far = first.0.iter().zip(&second.0).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(first.0.len() == second.0.len() && far < 0.3, "{study:?}: {far} px");
+    }
+}
+
+#[test]
+fn a_result_without_its_model_file_is_not_drawn_again() {
+    let file = folder("without_its_model_file").join("result.json");
+    std::fs::write(&file, r#"{"flexura": "0", "study": "solve"}"#).unwrap();
+    let output = run(&["view", shown(&file), "--svg", shown(&file.with_extension("svg"))]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("does not hold its model file"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_live_page_holds_one_result_or_several() {
+    let folder = folder("a_live_page");
+    let page = folder.join("live.html");
+    let output = run(&["solve", "cantilever_strip.toml", "--live", "--report", shown(&page)]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let text = std::fs::read_to_string(&page).unwrap();
+    assert!(
+        text.contains("'wasm-unsafe-eval'") && !text.contains("@flexura-solver@") && text.len() < 4_000_000
+    );
+    for model in ["elastica", "lee_frame"] {
+        let into = folder.join(model);
+        let output = run(&["solve", &format!("{model}.toml"), "--live", "--quiet", "-o", shown(&into)]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        assert!(std::fs::read_to_string(into.join("report.html")).unwrap().contains("'wasm-unsafe-eval'"));
+    }
+    let results = ["elastica", "lee_frame"].map(|model| folder.join(model).join("result.json"));
+    let both = ["view", shown(&results[0]), shown(&results[1]), "--no-open", "-o", shown(&page)];
+    assert_eq!(code(&run(&both)), 2);
+    let output = run(&[&both[..], &["--live"]].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let output = run(&["solve", "cantilever_strip.toml", "--live"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("say where to write that: --report FILE"), "{}", stderr(&output));
+}
+
 /// What our drawings are made of is known to the room that turns them into pixels.
 #[test]
 fn the_picture_of_every_example_can_be_turned_into_pixels() {

@@ -5,7 +5,7 @@ use flexura_expression::Function;
 use flexura_spatial::{Pose, Vector3};
 
 /// A flexible beam.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Beam {
     /// Its name, unique among beams.
     pub name: String,
@@ -45,7 +45,7 @@ impl Default for BeamTheory {
 }
 
 /// How a beam's end is held.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct End {
     /// The ground, the body or the other beam that holds it.
     pub mount: Mount,

@@ -4,7 +4,7 @@ use crate::{Contact, Frame, Mount, RollingCoordinate};
 use flexura_spatial::{Pose, Vector3};
 
 /// A joint between a parent (carries the fixed frame F) and a child (carries the moving frame M).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// Its name, unique among joints.
     pub name: String,

@@ -11,6 +11,7 @@ mod csv;
 mod derivatives;
 mod document;
 mod json;
+mod kept;
 mod motion;
 mod read;
 mod scene;
@@ -24,6 +25,7 @@ pub use contact::{ContactDocument, SideDocument};
 pub use csv::{beams_csv, csv_line};
 pub use document::{document, equilibrium_document};
 pub use json::{Named, to_json};
+pub use kept::{Make, kept_pictures};
 pub use motion::{
     BodySeries, CableSeries, InverseDynamicsDocument, JointSeries, MotionView, MotionWorkDocument, Series,
     SpringSeries, motion_csv, motion_document,

@@ -18,6 +18,14 @@ pub enum ReadError {
     /// Its parts are not those of the model.
     #[error("this is the result of another mechanism: {0}")]
     OtherMechanism(String),
+    /// It does not hold the model file that it is of.
+    #[error(
+        "this result does not hold its model file, so it cannot be drawn again; make it anew from the file"
+    )]
+    NoModel,
+    /// Its study has pictures of other things than states.
+    #[error("results of `{0}` cannot be drawn again; name --svg or --png when the study is done")]
+    NoPicture(String),
     /// It was one, but something in it is not as it was written.
     #[error("this result document is broken: {0}")]
     Broken(String),
@@ -57,10 +65,8 @@ pub fn solution_of(document: &Document, model: &Model) -> Result<Solution, ReadE
     let beams = in_order(&document.beams, "beam", model.beams.iter().map(|beam| beam.name.as_str()))?;
     let bodies = in_order(&document.bodies, "body", model.bodies.iter().map(|body| body.name.as_str()))?;
     let joints = in_order(&document.joints, "joint", model.joints.iter().map(|joint| joint.name.as_str()))?;
-    let status = STATUSES.into_iter().find(|status| status.word() == document.status);
     let mut solution = Solution {
-        status: status
-            .ok_or_else(|| ReadError::Broken(format!("there is no status `{}`", document.status)))?,
+        status: status_of(&document.status)?,
         reason: document.reason.clone(),
         load_fraction: document.load_fraction.unwrap_or(1.0),
         residual: document.residual.unwrap_or(f64::INFINITY),
@@ -128,6 +134,12 @@ pub fn solution_of(document: &Document, model: &Model) -> Result<Solution, ReadE
         }
     }
     Ok(solution)
+}
+
+/// The status of that word.
+pub(crate) fn status_of(word: &str) -> Result<Status, ReadError> {
+    let status = STATUSES.into_iter().find(|status| status.word() == word);
+    status.ok_or_else(|| ReadError::Broken(format!("there is no status `{word}`")))
 }
 
 const STATUSES: [Status; 7] = [

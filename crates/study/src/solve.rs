@@ -282,10 +282,15 @@ impl Prepared {
         (outcome.status == Status::Converged).then_some(outcome)
     }
 
+    /// From where it stands, which should be near, to `tolerance`; where nothing is near, the state is none.
+    pub fn solve_near_here(&mut self, tolerance: f64) -> Outcome {
+        self.problem.set_load(1.0);
+        self.finish(tolerance, PathWork { taken: 1, ..PathWork::default() }, NEAR)
+    }
+
     /// From where it stands, which should be near, to `tolerance`; from rest if it is not near.
     pub fn solve_from_here(&mut self, tolerance: f64, progress: &mut dyn FnMut(Progress)) -> Outcome {
-        self.problem.set_load(1.0);
-        let outcome = self.finish(tolerance, PathWork { taken: 1, ..PathWork::default() }, NEAR);
+        let outcome = self.solve_near_here(tolerance);
         if outcome.status == Status::Converged {
             return outcome;
         }
@@ -477,43 +482,47 @@ pub fn solve_family(
         (None, true) => prepared.solve(options.tolerance, progress),
         (None, false) => prepared.solve_inverse(family, options.tolerance, progress),
     };
-    let samples = options.samples.min((MOST_SAMPLES / model.beams.len().max(1)).max(FEWEST_SAMPLES));
-    let mut solution = prepared.solution(&outcome, samples);
+    let mut solution = prepared.told(&outcome, options);
     if far && outcome.status != Status::Interrupted {
         solution.warnings.push(
             "the earlier result is too far from an equilibrium of this model; it was solved from rest"
                 .to_string(),
         );
     }
-    if let Some(count @ 1..) = solution.unstable_directions {
-        solution.warnings.push(format!(
-            "the equilibrium is unstable in {count} {}: the mechanism does not stay there by itself; `flexura trace` shows where other \
-             branches leave its path",
-            if count == 1 { "direction" } else { "directions" }
-        ));
-    }
-    if outcome.status == Status::Converged {
-        prepared.add_tangents(&mut solution, &options.compliances);
-        if options.sensitivities {
-            let parameters: Vec<usize> = (0..model.parameters.len()).collect();
-            match prepared.sensitivities(family, &parameters) {
-                Ok(sensitivities) => {
-                    solution.warnings.extend(sensitivity::warnings(
-                        prepared.model(),
-                        &solution,
-                        &sensitivities,
-                    ));
-                    solution.sensitivities = Some(sensitivities);
-                }
-                Err(error) => solution.warnings.push(error.to_string()),
+    if outcome.status == Status::Converged && options.sensitivities {
+        let parameters: Vec<usize> = (0..model.parameters.len()).collect();
+        match prepared.sensitivities(family, &parameters) {
+            Ok(sensitivities) => {
+                let warnings = sensitivity::warnings(prepared.model(), &solution, &sensitivities);
+                solution.warnings.extend(warnings);
+                solution.sensitivities = Some(sensitivities);
             }
+            Err(error) => solution.warnings.push(error.to_string()),
         }
     }
-    solution.found = prepared.unknown_values();
     Ok((solution, prepared.model().clone()))
 }
 
 impl Prepared {
+    /// The present state with everything that a solve tells of it, but for sensitivities.
+    pub fn told(&mut self, outcome: &Outcome, options: &Options) -> Solution {
+        let beams = self.model().beams.len().max(1);
+        let samples = options.samples.min((MOST_SAMPLES / beams).max(FEWEST_SAMPLES));
+        let mut solution = self.solution(outcome, samples);
+        if let Some(count @ 1..) = solution.unstable_directions {
+            solution.warnings.push(format!(
+                "the equilibrium is unstable in {count} {}: the mechanism does not stay there by itself; `flexura trace` shows where other \
+                 branches leave its path",
+                if count == 1 { "direction" } else { "directions" }
+            ));
+        }
+        if outcome.status == Status::Converged {
+            self.add_tangents(&mut solution, &options.compliances);
+        }
+        solution.found = self.unknown_values();
+        solution
+    }
+
     /// Compliances and motions of what outputs ask for, and of `further`.
     pub fn add_tangents(&mut self, solution: &mut Solution, further: &[ProbeTarget]) {
         let mut targets = tangent_targets(self.problem.model());

@@ -69,6 +69,8 @@ export class Viewport {
   /** From where the eye was last asked to look. */
   view: View = "own";
   private layers: Layers | null = null;
+  /** Called after every frame: for what is laid over the window. */
+  afterDraw: (() => void) | null = null;
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -244,6 +246,18 @@ export class Viewport {
     return [0.5 * (1 + v.x) * width, 0.5 * (1 - v.y) * height, v.z];
   }
 
+  /** The point under a pixel at the depth of another point, and the unit vector of the line of sight there. */
+  under(x: number, y: number, deep: Vec): { to: Vec; eye: Vec } {
+    const { width, height } = this.canvas.getBoundingClientRect();
+    const [, , depth] = this.project(deep);
+    const [across, up] = [(2 * x) / width - 1, 1 - (2 * y) / height];
+    const to = new Vector3(across, up, depth).unproject(this.camera);
+    const before = new Vector3(across, up, depth - 1e-3 * (1 + Math.abs(depth))).unproject(this.camera);
+    const eye = this.isPerspective ? to.clone().sub(this.camera.position) : to.clone().sub(before);
+    eye.normalize();
+    return { to: [to.x, to.y, to.z], eye: [eye.x, eye.y, eye.z] };
+  }
+
   /** Metres per CSS pixel at the point that the eye looks at. */
   get metresPerPixel(): number {
     const { height } = this.canvas.getBoundingClientRect();
@@ -291,6 +305,7 @@ export class Viewport {
       };
       this.overlay.draw(this.layers.labels, (p) => this.project(p), axis, this.metresPerPixel);
     }
+    this.afterDraw?.();
   }
 
   private resize(): void {

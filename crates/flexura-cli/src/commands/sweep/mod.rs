@@ -38,7 +38,7 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     }
     let remake = remake(&file, overrides, &model);
     let mut sweep = Sweep::new(&model, axes, &options).map_err(Failure::Input)?.remade_by(&remake);
-    let shown = Shown::new(&arguments.shown)?;
+    let shown = Shown::new(&arguments.shown, false)?;
     if shown.wants_page() || arguments.model.json {
         sweep = sweep.with_shapes(model.beams.len());
     }
