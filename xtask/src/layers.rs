@@ -13,7 +13,7 @@ const FLOORS: &[&[&str]] = &[
     &["output"],
     &["report", "raster"],
     &["flexura"],
-    &["flexura-cli"],
+    &["flexura-cli", "flexura-python"],
 ];
 
 /// Rooms that may use everything and that nothing may use except in tests.
@@ -50,6 +50,7 @@ fn imports(manifest: &str) -> Vec<String> {
 fn room_of(package: &str) -> &str {
     match package.strip_prefix("flexura-") {
         Some("cli") => "flexura-cli",
+        Some("python") => "flexura-python",
         Some(room) => room,
         None => package,
     }

@@ -19,6 +19,7 @@ pub fn run() -> Outcome {
     viewer::test()?;
     check("generated files are up to date", "test", generate::check)?;
     python::check_schema(&python)?;
+    python::test_package(&python)?;
     println!("\nall checks and tests passed");
     Ok(())
 }
