@@ -14,6 +14,9 @@
 
 from __future__ import annotations
 
+import importlib
+from types import ModuleType
+
 from . import errors
 from ._native import __version__, schema
 from ._references import Formula, Handle, clamp, hold, pin, place, prismatic, revolute
@@ -64,3 +67,10 @@ __all__ = [
     "schema",
     "sweep",
 ]
+
+
+def __getattr__(name: str) -> ModuleType:
+    """``flexura.jax`` and ``flexura.torch`` are imported where they are used, since few need them."""
+    if name in ("jax", "torch"):
+        return importlib.import_module(f".{name}", __name__)
+    raise AttributeError(f"module 'flexura' has no attribute {name!r}")

@@ -10,7 +10,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self, overload
 
 from . import _native, _values
 from ._references import Handle, text_of
@@ -369,7 +369,8 @@ class Model(Tables):
         if native.solved is not None:
             result = Result(given, native.solved)
         else:
-            result = {"trace": Path, "buckle": Buckling, "inverse_dynamics": Motion}[native.kind](given, native)
+            kinds: dict[str, type[Path | Buckling | Motion]] = {"trace": Path, "buckle": Buckling, "inverse_dynamics": Motion}
+            result = kinds[native.kind](given, native)
         if check and native.status != "converged":
             raise ConvergenceError(f"{name}: {native.status}: {native.reason}", result)
         return result
@@ -447,11 +448,19 @@ class Model(Tables):
 
         return Stepper(self, inputs, outputs, tolerance=tolerance)
 
-    def sweep(self, space: Any, outputs: Sequence[Any] | None = None, **options: Any) -> Sweep | Explanation:
-        """Many solves over a space of parameters; see :func:`flexura.sweep`."""
+    @overload
+    def sweep(self, space: Any, outputs: Sequence[Any] | None = None, *, explain: Literal[True], **options: Any) -> Explanation: ...
+    @overload
+    def sweep(self, space: Any, outputs: Sequence[Any] | None = None, *, explain: Literal[False] = False, **options: Any) -> Sweep: ...
+    def sweep(
+        self, space: Any, outputs: Sequence[Any] | None = None, *, explain: bool = False, **options: Any
+    ) -> Sweep | Explanation:
+        """Many solves over a space of parameters; see :func:`flexura.sweep` for the options."""
         from .sweep import sweep
 
-        return sweep(self, space, outputs, **options)
+        found: Sweep | Explanation
+        found = sweep(self, space, outputs, explain=True, **options) if explain else sweep(self, space, outputs, **options)
+        return found
 
 
 def load(path: str | os.PathLike[str]) -> Model:

@@ -433,7 +433,7 @@ class Result(Shown):
         self.__init__(state["model"], None, state["text"])  # type: ignore[misc]
         if state["text"] is None:
             # What broke off where nothing can be evaluated leaves only how it ended.
-            empty = dict.fromkeys(("outputs", "beams", "bodies", "joints", "springs", "couplings", "cables", "tubes"), {})
+            empty: dict[str, Any] = dict.fromkeys(("outputs", "beams", "bodies", "joints", "springs", "couplings", "cables", "tubes"), {})
             self.__dict__["document"] = Record({**empty, **state["state"], "energy": float("nan"), "parameters": {}})
 
     def __repr__(self) -> str:

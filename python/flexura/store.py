@@ -104,12 +104,12 @@ def open_store(path: str | os.PathLike[str], about: Mapping[str, Any], create: b
     Raises:
         StudyError: it belongs to another sweep, or is of an unknown kind.
     """
-    kinds = {".zarr": ZarrStore, ".parquet": ParquetStore, ".csv": CsvStore}
+    kinds: dict[str, type[ZarrStore | ParquetStore | CsvStore]] = {".zarr": ZarrStore, ".parquet": ParquetStore, ".csv": CsvStore}
     place = Path(path)
     if place.suffix not in kinds:
         raise StudyError(f"the store {place} is of an unknown kind: its name ends in .zarr, .parquet or .csv")
     kind = kinds[place.suffix]
-    known = kind.about(place)
+    known: Mapping[str, Any] | None = kind.about(place)
     if known is None:
         if place.exists() and (place.is_file() or any(place.iterdir())):
             raise StudyError(f"{place} is there already and is no store of a sweep; name another place")

@@ -112,7 +112,7 @@ class Sweep:
         data: dict[str, Any] = dict(self.parameters)
         for name, values in self.outputs.items():
             data |= {name: values} if values.ndim == 1 else {f"{name}.{c}": values[:, i] for i, c in enumerate("xyz")}
-        data["status"] = pandas.Categorical.from_codes(self._rows.codes.astype(int), self._rows.words)
+        data["status"] = pandas.Categorical(self.status, categories=self._rows.words)
         reasons = np.full(len(self), None, dtype=object)
         for number, reason in self._rows.reasons.items():
             reasons[number] = reason
@@ -173,7 +173,9 @@ def _space(model: Model, space: Any) -> Space:
         return _checked(model, Space(tuple(names), np.array(columns, dtype=float).reshape(len(names), -1).T))
     if isinstance(space, Mapping):
         names = [name.name if isinstance(name, Handle) else str(name) for name in space]
-        axes = tuple(np.array(_column(model, name, np.atleast_1d(list(values)).tolist() if not isinstance(values, np.ndarray) else values.tolist()), dtype=float) for name, values in zip(names, space.values(), strict=True))
+        for name in names:
+            _known(model, name)
+        axes = tuple(np.array(_column(model, name, _list(values)), dtype=float) for name, values in zip(names, space.values(), strict=True))
         count = int(np.prod([len(axis) for axis in axes], dtype=float)) if axes else 0
         table = np.empty((count, len(axes)))
         for i, mesh in enumerate(np.meshgrid(*axes, indexing="ij") if axes else ()):
@@ -195,6 +197,13 @@ def _space(model: Model, space: Any) -> Space:
     raise StudyError(
         "the space is a dict of lists (a grid), a DataFrame, a list of dicts, or a pair of names and an array (n, parameters)"
     )
+
+
+def _list(values: Any) -> list[Any]:
+    """Values of one parameter; one alone is a list of one."""
+    if isinstance(values, np.ndarray):
+        return list(values.reshape(-1))
+    return list(values) if isinstance(values, Iterable) and not isinstance(values, str) else [values]
 
 
 def _known(model: Model, name: str) -> None:
@@ -298,7 +307,20 @@ def _continued(job: _Job, mechanism: _native.Mechanism, values: Any, previous: A
 
 
 @overload
-def sweep(model: Model, space: Any, outputs: Sequence[Any] | None = None, *, explain: Literal[True], **options: Any) -> Explanation: ...
+def sweep(
+    model: Model,
+    space: Any,
+    outputs: Sequence[Any] | None = None,
+    *,
+    explain: Literal[True],
+    store: str | os.PathLike[str] | None = None,
+    executor: Executor | None = None,
+    chunk: int | None = None,
+    tolerance: float = 1e-8,
+    continuation: bool = False,
+    retry: Literal["failed"] | None = None,
+    progress: bool | None = None,
+) -> Explanation: ...
 @overload
 def sweep(
     model: Model,
@@ -453,7 +475,11 @@ def _bar(progress: bool | None, samples: int, todo: list[_Todo]) -> Callable[[in
         return lambda _: None
     missing = sum(len(item[2]) if item[3] is None else int(item[3].sum()) for item in todo)
     bar = tqdm(total=samples, initial=samples - missing, unit="sample")
-    return lambda count: bar.close() if count < 0 else bar.update(count) and None
+
+    def update(count: int) -> None:
+        bar.close() if count < 0 else bar.update(count)
+
+    return update
 
 
 def _key(model: Model, table: Space, columns: list[str], tolerance: float, continuation: bool) -> str:
