@@ -55,8 +55,7 @@ def kind(entry: Mapping[str, Any]) -> str:
     text = json.dumps(entry)
     if '"#/$defs/number"' in text and '"array"' not in text and '"object"' not in text:
         return "Number"
-    types = {part.get("type") for part in entry.get("allOf", [entry])}
-    return "bool" if types == {"boolean"} else "Any"
+    return "Any"
 
 
 def first_sentence(entry: Mapping[str, Any]) -> str:
@@ -86,7 +85,7 @@ def methods() -> Iterator[str]:
         yield "        name: str,"
         yield "        /,"
         yield "        *,"
-        words = {key: entry for key, entry in found.items() if key.isidentifier() and not keyword.iskeyword(key)}
+        words = {key + "_" * keyword.iskeyword(key): entry for key, entry in found.items() if key.isidentifier()}
         for key, (type_, _) in words.items():
             yield f"        {key}: {type_} = ...,"
         yield "        **keys: Any,"

@@ -9,6 +9,7 @@ import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
+from keyword import iskeyword
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self, overload
 
@@ -136,7 +137,11 @@ class Model(Tables):
         return [*super().__dir__(), *_named_tables()]
 
     def add(self, table: str, name: str, value: Any = None, /, **keys: Any) -> Handle:
-        """An entry of a table, which may hold a value (a parameter, an output) or keys (a beam, a joint)."""
+        """An entry of a table, which may hold a value (a parameter, an output) or keys (a beam, a joint).
+
+        A key that is a word of Python has a ``_`` behind it: ``from_``.
+        """
+        keys = {key[:-1] if iskeyword(key[:-1]) and key.endswith("_") else key: item for key, item in keys.items()}
         name, path = str(text_of(name) if not isinstance(name, str) else name), f"{table}.{name}"
         if value is not None and keys:
             raise ModelError.at(path, "has a value and keys", hint=f"write m.{table}(name, value) or m.{table}(name, key=...)")

@@ -40,14 +40,7 @@ class Stepper:
     def __init__(self, model: Model, inputs: Sequence[Any] = (), outputs: Sequence[Any] = (), *, tolerance: float = 1e-8) -> None:
         if model.values:
             raise StudyError("a stepper takes the values that stand in the file; give others as inputs")
-        parameters, known = list(model.parameters), list(model.outputs)
-        if not inputs and not model.targets:
-            raise StudyError("nothing to lead: name parameters as inputs, or write targets into the model")
-        if not outputs and not model.unknowns:
-            raise StudyError("nothing to find: name outputs, or write unknowns into the model")
-        places = [_position(name, parameters, "parameter") for name in inputs]
-        wanted = [_position(name, known, "output") for name in outputs]
-        self._native = _native.Stepper(model._mechanism, places, wanted, tolerance)
+        self._native = _native.Stepper(model._mechanism, _names(inputs), _names(outputs), tolerance)
         self.sizes: tuple[int, int] = self._native.sizes
         self._room = np.zeros(self.sizes[1])
 
@@ -69,8 +62,5 @@ class Stepper:
         self._native.reset()
 
 
-def _position(name: Any, names: list[str], kind: str) -> int:
-    name = name.name if isinstance(name, Handle) else str(name)
-    if name not in names:
-        raise StudyError.at(f"{kind}.{name}", f"there is no {kind} `{name}`", hint=f"there are {', '.join(names) or 'none'}")
-    return names.index(name)
+def _names(things: Sequence[Any]) -> list[str]:
+    return [thing.name if isinstance(thing, Handle) else str(thing) for thing in things]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from typing import Any
 
 import numpy as np
 import pint
@@ -73,7 +74,7 @@ def test_the_stub_of_the_tables_is_up_to_date() -> None:
 
 
 def test_values_may_be_numbers_texts_quantities_arrays_and_formulas() -> None:
-    units = pint.UnitRegistry()
+    units: Any = pint.UnitRegistry()
     reference = wire().solve(pull="0.25 N").outputs["rise"]
     assert wire().solve(pull=0.25).outputs["rise"] == reference
     assert wire().solve({"pull": np.float32(0.25)}).outputs["rise"] == reference

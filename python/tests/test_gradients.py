@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -41,8 +42,8 @@ def mechanism() -> fx.Model:
     turned = {"axis": [0, 0, 1], "angle": p["rotation"]}
     stage = m.body("stage", at=["0.2 m", p["position"], 0])
     leaf = m.beam("leaf", material=steel, section=wire, length=p["length"], start=fx.clamp("ground", rotation=turned), end=fx.clamp(stage))
-    m.spring("straight", **{"from": fx.place("ground", at=[0.2, -0.1, 0.02]), "to": fx.place(stage)}, stiffness=p["stiffness"], rest_length=p["rest_value"])
-    m.spring("toe", **{"from": fx.place("ground", at=[0.3, 0.1, 0]), "to": fx.place(leaf, at=0.6)}, law="toe", axial_stiffness=p["law"], toe_strain=0.05, rest_length=0.1)
+    m.spring("straight", from_=fx.place("ground", at=[0.2, -0.1, 0.02]), to=fx.place(stage), stiffness=p["stiffness"], rest_length=p["rest_value"])
+    m.spring("toe", from_=fx.place("ground", at=[0.3, 0.1, 0]), to=fx.place(leaf, at=0.6), law="toe", axial_stiffness=p["law"], toe_strain=0.05, rest_length=0.1)
     arm = m.body("arm", at=["0.2 m", p["position"], 0])
     m.joint("hinge", kind="revolute", parent=stage, child=arm, axis=[0, 0, 1], stiffness=p["joint_stiffness"], rest=p["joint_rest"])
     m.load("push", body=stage, force=[0, p["load"], "0.1 N"])
@@ -100,7 +101,7 @@ def test_a_function_composes_maps_and_compiles(expected: np.ndarray) -> None:
     scale = np.abs(expected).max(axis=0)
     np.testing.assert_allclose(jacobian / scale, expected / scale, atol=1e-6)
 
-    def objective(x: jax.Array) -> jax.Array:
+    def objective(x: Any) -> Any:
         return jnp.sum((f(x)[:2] - 0.1) ** 2)
 
     y = f(X)

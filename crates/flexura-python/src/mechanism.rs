@@ -5,10 +5,10 @@ use crate::guard::released;
 use crate::solved::{Request, Solved};
 use crate::studies::Study;
 use flexura::model::Model;
-use flexura::modelfile::Document;
+use flexura::modelfile::{Document, Report};
 use flexura::post::each_output;
 use flexura::solution::Status;
-use flexura::{FileFamily, Interrupt, Options, equilibria, place, solve_family, study_named};
+use flexura::{Interrupt, Options, equilibria, place, solve_model, study_named};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::sync::Arc;
@@ -117,8 +117,8 @@ impl Mechanism {
         py: Python<'_>,
         values: Values,
     ) -> PyResult<(Vec<(String, usize)>, Vec<(String, usize)>, Vec<String>)> {
-        let overrides = self.overrides(py, values)?;
-        let census = released(py, |_| Ok(flexura::check(&self.file.model(&overrides)?)?))?;
+        let given = self.given(py, values)?;
+        let census = released(py, |_| Ok(flexura::check(&self.at(&given)?)?))?;
         let census = census.map_err(|wrong: Wrong| wrong.raise(py, &self.file, self.place))?;
         Ok((census.unknowns, census.equations, census.warnings))
     }
@@ -135,13 +135,13 @@ impl Mechanism {
         compliances: Vec<String>,
         start: Option<PyRef<'_, Solved>>,
     ) -> PyResult<Solved> {
-        let overrides = self.overrides(py, values)?;
+        let given = self.given(py, values)?;
         let from = start.map(|start| Box::new(start.solution.clone()));
         let mut options = Options { tolerance, samples, sensitivities, from, ..Options::default() };
         for text in &compliances {
             options.compliances.push(place(&self.model, text).map_err(study)?);
         }
-        self.solved(py, overrides, options)
+        self.solved(py, &given, options)
     }
 
     /// Equilibria that are found under the full load from random states, by their energy.
@@ -153,14 +153,14 @@ impl Mechanism {
         guesses: usize,
         seed: u64,
     ) -> PyResult<Vec<Solved>> {
-        let overrides = self.overrides(py, values)?;
+        let given = self.given(py, values)?;
         let found = released(py, |interrupt| -> Result<_, Wrong> {
-            let mut model = self.file.model(&overrides)?;
+            let mut model = self.at(&given)?;
             (model.unknowns, model.targets) = (Vec::new(), Vec::new());
             let options = Options { tolerance, interrupt: interrupt.clone(), ..Options::default() };
             let found = equilibria(&model, &options, guesses, seed)?;
             let found = found.into_iter().filter(|solution| solution.status == Status::Converged);
-            let request = Request { file: self.file.clone(), place: self.place, overrides, tolerance };
+            let request = Request { file: self.file.clone(), place: self.place, tolerance };
             Ok(found.map(|solution| Solved::new(&request, model.clone(), solution)).collect())
         })?;
         found.map_err(|wrong| wrong.raise(py, &self.file, self.place))
@@ -175,8 +175,8 @@ impl Mechanism {
         tolerance: f64,
         outputs: Vec<usize>,
     ) -> PyResult<Sample> {
-        let overrides = self.overrides(py, values)?;
-        released(py, |interrupt| self.one_sample(&overrides, tolerance, &outputs, interrupt))
+        let given = self.given(py, values)?;
+        released(py, |interrupt| self.one_sample(&given, tolerance, &outputs, interrupt))
     }
 
     /// A study of the file.
@@ -188,17 +188,12 @@ impl Mechanism {
         tolerance: f64,
         shapes: usize,
     ) -> PyResult<Study> {
-        let overrides = self.overrides(py, values)?;
+        let given = self.given(py, values)?;
         let done = released(py, |interrupt| {
             let options = Options { tolerance, shapes, interrupt: interrupt.clone(), ..Options::default() };
-            let model = self.file.model(&overrides)?;
+            let model = self.at(&given)?;
             let study = study_named(&self.file, &model, name)?.clone();
-            let request = Request {
-                file: self.file.clone(),
-                place: self.place,
-                overrides: overrides.clone(),
-                tolerance,
-            };
+            let request = Request { file: self.file.clone(), place: self.place, tolerance };
             Study::run(&request, model, &study, &options)
         })?;
         done.map_err(|wrong| wrong.raise(py, &self.file, self.place))
@@ -206,66 +201,76 @@ impl Mechanism {
 }
 
 impl Mechanism {
-    fn of(
-        py: Python<'_>,
-        made: Result<(Document, Model), flexura::modelfile::Report>,
-        place: Place,
-    ) -> PyResult<Self> {
+    fn of(py: Python<'_>, made: Result<(Document, Model), Report>, place: Place) -> PyResult<Self> {
         let (file, model) = made.map_err(|report| of_report(py, &report, place))?;
         Ok(Self { file: Arc::new(file), model: Arc::new(model), place })
     }
 
-    /// Values as texts, numbers with the SI unit of their parameter.
-    pub fn overrides(&self, py: Python<'_>, values: Values) -> PyResult<Vec<(String, String)>> {
-        let mut overrides = Vec::with_capacity(values.len());
-        for (name, value) in values {
-            let text = match value {
-                Given::Text(text) => text,
-                Given::Number(value) if !value.is_finite() => {
-                    let path = format!("parameter.{name}");
-                    let problem = self.file.problem(&path, &format!("{value} is no finite number"), None);
-                    return Err(of_report(py, &self.file.report(vec![problem]), Place::Words));
-                }
-                Given::Number(value) => {
-                    let unit = self.model.parameters.iter().find(|p| p.name == name).map(|p| p.unit.as_str());
-                    format!("{value:e} {}", unit.unwrap_or_default())
-                }
-            };
-            overrides.push((name, text));
+    /// Values, checked so far that a number is one.
+    fn given(&self, py: Python<'_>, values: Values) -> PyResult<Values> {
+        for (name, value) in &values {
+            if let Given::Number(value) = value
+                && !value.is_finite()
+            {
+                let path = format!("parameter.{name}");
+                let problem = self.file.problem(&path, &format!("{value} is no finite number"), None);
+                return Err(of_report(py, &self.file.report(vec![problem]), Place::Words));
+            }
         }
-        Ok(overrides)
+        Ok(values)
     }
 
-    fn solved(
-        &self,
-        py: Python<'_>,
-        overrides: Vec<(String, String)>,
-        mut options: Options,
-    ) -> PyResult<Solved> {
+    /// The model with these values: where all are numbers by its own rules; else, and where those refuse, from its text,
+    /// which also says what is wrong.
+    fn at(&self, values: &Values) -> Result<Model, Report> {
+        if values.is_empty() {
+            return Ok((*self.model).clone());
+        }
+        let number = |(name, value): &(String, Given)| match value {
+            Given::Number(value) => {
+                let position = self.model.parameters.iter().position(|known| known.name == *name);
+                position.map(|position| (position, *value))
+            }
+            Given::Text(_) => None,
+        };
+        if let Some(numbers) = values.iter().map(number).collect::<Option<Vec<_>>>()
+            && let Ok(model) = self.model.at(&numbers)
+            && model.validate_mechanism().is_empty()
+        {
+            return Ok(model);
+        }
+        let text = |(name, value): &(String, Given)| {
+            let text = match value {
+                Given::Text(text) => text.clone(),
+                // The shortest text that reads back as the same number, with the SI unit.
+                Given::Number(value) => {
+                    let unit = self.model.parameters.iter().find(|known| known.name == *name);
+                    format!("{value:e} {}", unit.map_or("", |parameter| parameter.unit.as_str()))
+                }
+            };
+            (name.clone(), text)
+        };
+        self.file.model(&values.iter().map(text).collect::<Vec<_>>())
+    }
+
+    fn solved(&self, py: Python<'_>, given: &Values, mut options: Options) -> PyResult<Solved> {
         let done = released(py, |interrupt| -> Result<_, Wrong> {
             options.interrupt = interrupt.clone();
-            let model = self.file.model(&overrides)?;
-            let mut family = FileFamily::new(&self.file, &overrides, &model);
-            let (solution, model) = solve_family(&model, &mut family, &options, &mut |_| {})?;
+            let model = self.at(given)?;
+            let (solution, model) = solve_model(&model, &options, &mut |_| {})?;
             let tolerance = options.tolerance;
-            let request = Request { file: self.file.clone(), place: self.place, overrides, tolerance };
+            let request = Request { file: self.file.clone(), place: self.place, tolerance };
             Ok(Solved::new(&request, model, solution))
         })?;
         done.map_err(|wrong| wrong.raise(py, &self.file, self.place))
     }
 
-    fn one_sample(
-        &self,
-        overrides: &[(String, String)],
-        tolerance: f64,
-        outputs: &[usize],
-        interrupt: &Interrupt,
-    ) -> Sample {
+    fn one_sample(&self, given: &Values, tolerance: f64, outputs: &[usize], interrupt: &Interrupt) -> Sample {
         let wrong = |path: &str, message: &str| {
             let reason = if path.is_empty() { message.to_owned() } else { format!("{path}: {message}") };
             ("input_error".to_owned(), Some(reason), None)
         };
-        let model = match self.file.model(overrides) {
+        let model = match self.at(given) {
             Ok(model) => model,
             Err(report) => {
                 let first = report.problems().first();
@@ -273,8 +278,7 @@ impl Mechanism {
             }
         };
         let options = Options { tolerance, samples: 2, interrupt: interrupt.clone(), ..Options::default() };
-        let mut family = FileFamily::new(&self.file, overrides, &model);
-        let (solution, model) = match solve_family(&model, &mut family, &options, &mut |_| {}) {
+        let (solution, model) = match solve_model(&model, &options, &mut |_| {}) {
             Ok(solved) => solved,
             Err(error) => return wrong(&error.path, &error.message),
         };

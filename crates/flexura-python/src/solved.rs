@@ -8,7 +8,7 @@ use flexura::modelfile::Document;
 use flexura::output::{beams_csv, document, equilibrium_document, model_vtp, shape_svg, to_json};
 use flexura::post::{Evaluation, OutputResult, OutputValue, evaluate_each, large_strain};
 use flexura::solution::{BeamSample, Solution, Status};
-use flexura::{FileFamily, Prepared};
+use flexura::{ModelFamily, Prepared};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Arc;
@@ -18,7 +18,6 @@ use std::sync::Arc;
 pub struct Request {
     pub file: Arc<Document>,
     pub place: Place,
-    pub overrides: Vec<(String, String)>,
     pub tolerance: f64,
 }
 
@@ -205,7 +204,7 @@ impl Solved {
         parameters: &[usize],
         interrupt: &flexura::Interrupt,
     ) -> Result<Derivatives, Wrong> {
-        let mut family = FileFamily::new(&self.request.file, &self.request.overrides, &self.model);
+        let mut family = ModelFamily::new(&self.model);
         let mut prepared = Prepared::new(&self.model)?;
         prepared.heed(interrupt);
         if prepared.solve_near(&self.solution, self.request.tolerance).is_none() {

@@ -4,11 +4,11 @@ use crate::errors::{Wrong, bug};
 use crate::solved::{Request, Solved};
 use flexura::model::{Model, Study as Described, StudyKind};
 use flexura::output::{
-    critical_csv, diagram_svg, modes_csv, modes_svg, motion_csv, motion_document, motion_svg, path_csv,
-    shapes_svg, to_json, trace_document,
+    TraceView, critical_csv, diagram_svg, modes_csv, modes_svg, motion_csv, motion_document, motion_svg,
+    path_csv, shapes_svg, to_json, trace_document,
 };
 use flexura::solution::Status;
-use flexura::{Buckled, FileFamily, Options, motion_view, solve_family, trace_view};
+use flexura::{Buckled, Options, motion_view, solve_model};
 use pyo3::prelude::*;
 
 /// What a study came to.
@@ -45,12 +45,11 @@ impl Study {
 impl Study {
     /// Does a study of a file's model, without the interpreter's lock.
     pub fn run(request: &Request, model: Model, study: &Described, options: &Options) -> Result<Self, Wrong> {
-        let mut family = FileFamily::new(&request.file, &request.overrides, &model);
         let refused = |error| Wrong::of_study(&request.file, &study.name, &error);
         let text = || Some(request.file.text().to_owned());
         let mut done = match &study.kind {
             StudyKind::Solve => {
-                let (solution, model) = solve_family(&model, &mut family, options, &mut |_| {})?;
+                let (solution, model) = solve_model(&model, options, &mut |_| {})?;
                 let (status, reason) = (solution.status, solution.reason.clone());
                 let solved = Solved::new(request, model, solution);
                 let solved = Python::attach(|py| Py::new(py, solved));
@@ -58,9 +57,9 @@ impl Study {
                 Self { solved: Some(solved), ..Self::ended("solve", status, reason) }
             }
             StudyKind::Trace(trace) => {
-                let traced = flexura::trace(&model, &mut family, trace, options, &mut |_| {});
+                let traced = flexura::trace(&model, trace, options, &mut |_| {});
                 let traced = traced.map_err(refused)?;
-                let view = trace_view(&model, trace, &traced, &mut family);
+                let view = TraceView::new(&model, trace, &traced);
                 let document = trace_document(&view).map(|mut document| {
                     document.scene.iter_mut().for_each(|scene| scene.text = text());
                     document
@@ -73,7 +72,7 @@ impl Study {
                 Self { document, files: named(files), ..ended }
             }
             StudyKind::Buckle(buckle) => {
-                let buckled = Buckled::new(&model, &mut family, buckle, options).map_err(refused)?;
+                let buckled = Buckled::new(&model, buckle, options).map_err(refused)?;
                 let solution = &buckled.buckling.solution;
                 let document = buckled.document().map(|mut document| {
                     document.scene.text = text();
@@ -86,7 +85,7 @@ impl Study {
                 Self { document, files: named(files), ..ended }
             }
             StudyKind::InverseDynamics(motion) => {
-                let moved = flexura::inverse_dynamics(&model, &mut family, motion, options, &mut |_| {});
+                let moved = flexura::inverse_dynamics(&model, motion, options, &mut |_| {});
                 let moved = moved.map_err(refused)?;
                 let view = motion_view(&model, &moved);
                 let document = motion_document(&view).map(|mut document| {
