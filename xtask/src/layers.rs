@@ -13,7 +13,7 @@ const FLOORS: &[&[&str]] = &[
     &["output"],
     &["report", "raster"],
     &["flexura"],
-    &["flexura-cli", "live"],
+    &["flexura-cli", "live", "flexura-python", "flexura-c"],
 ];
 
 /// Rooms that may use everything and that nothing may use except in tests.
@@ -50,6 +50,8 @@ fn imports(manifest: &str) -> Vec<String> {
 fn room_of(package: &str) -> &str {
     match package.strip_prefix("flexura-") {
         Some("cli") => "flexura-cli",
+        Some("python") => "flexura-python",
+        Some("c") => "flexura-c",
         Some(room) => room,
         None => package,
     }

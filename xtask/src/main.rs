@@ -3,6 +3,7 @@
 //! ```text
 //! cargo xtask test       everything that must hold: the checks, the tests, the documentation
 //! cargo xtask generate   rewrite the files that are generated
+//! cargo xtask python     the wheel of the Python package, built, installed where nothing else is, and tested
 //! cargo xtask page       rebuild the page that shows results, from viewer/
 //! cargo xtask pictures   photograph the page: the gallery, and the pictures of the README
 //! cargo xtask live       build the solver for the live page (minutes)
@@ -27,13 +28,14 @@ mod viewer;
 
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: cargo xtask <test | generate | page | pictures | live | tidy | campaign [--seed S] [--count N] [--jobs J]>";
+const USAGE: &str = "usage: cargo xtask <test | generate | python | page | pictures | live | tidy | campaign [--seed S] [--count N] [--jobs J]>";
 
 fn main() -> ExitCode {
     let verb = std::env::args().nth(1).unwrap_or_default();
     let result = match verb.as_str() {
         "test" => test::run(),
         "generate" => generate::write(),
+        "python" => python::prepare().and_then(|python| python::test_package(&python)),
         "page" => viewer::build(),
         "pictures" => generate::build().and_then(|()| viewer::pictures()),
         "live" => live::build(),

@@ -1,15 +1,20 @@
 //! A Python of our own with the packages that the tests need, kept between runs.
 
-use crate::step::{Outcome, Step, exists, read, root, target};
+use crate::step::{Outcome, Step, entries, exists, read, root, target};
 use std::path::{Path, PathBuf};
 
 const OLD: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
 
 /// The interpreter that tests use, made when it is not there or its packages changed.
 pub fn prepare() -> Result<PathBuf, String> {
-    let folder = target().join("python");
+    environment("python", "xtask/requirements.txt")
+}
+
+/// An environment below `target`, made when it is not there or its packages changed; its interpreter.
+fn environment(name: &str, requirements: &str) -> Result<PathBuf, String> {
+    let folder = target().join(name);
     let program = if cfg!(windows) { folder.join("Scripts/python.exe") } else { folder.join("bin/python") };
-    let requirements = root().join("xtask/requirements.txt");
+    let requirements = root().join(requirements);
     let wanted = read(&requirements)?;
     let stamp = folder.join("installed.txt");
     if std::fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) && runs(&program) {
@@ -20,13 +25,53 @@ pub fn prepare() -> Result<PathBuf, String> {
     }
     Step::new("Python environment", &format!("{} -m venv", newest()?)).argument(&folder).run()?;
     let install = "-m pip install --quiet --disable-pip-version-check --requirement";
-    let mut step = Step::new("Python packages", "").argument(&program);
-    for word in install.split(' ') {
-        step = step.argument(word);
-    }
-    step.argument(&requirements).run()?;
+    words(Step::new("Python packages", "").argument(&program), install).argument(&requirements).run()?;
     std::fs::write(&stamp, wanted).map_err(|error| format!("{}: {error}", stamp.display()))?;
     Ok(program)
+}
+
+fn words<'a>(step: Step<'a>, words: &str) -> Step<'a> {
+    words.split_whitespace().fold(step, |step, word| step.argument(word))
+}
+
+/// Builds the wheel as `pip install .` does, but with the optimisation of the tests; installs it where nothing else of ours
+/// is, and tests it from outside the checkout.
+pub fn test_package(python: &Path) -> Outcome {
+    let wheels = target().join("wheels");
+    if wheels.exists() {
+        std::fs::remove_dir_all(&wheels).map_err(|error| format!("{}: {error}", wheels.display()))?;
+    }
+    let build = Step::new("Python package", "").argument(python);
+    words(build, "-m maturin build --quiet --profile dev --out")
+        .argument(&wheels)
+        .variable("CARGO_PROFILE_DEV_OPT_LEVEL", "2")
+        .run()?;
+    let [wheel] = &entries(&wheels)?[..] else {
+        return Err(format!("{} should hold one wheel", wheels.display()));
+    };
+    let clean = environment("python-package", "python/tests/requirements.txt")?;
+    let install = Step::new("Python package in a clean environment", "").argument(&clean);
+    words(install, "-m pip install --quiet --disable-pip-version-check --force-reinstall --no-deps")
+        .argument(wheel)
+        .run()?;
+    let outside = std::env::temp_dir();
+    let at = |path: &str| root().join(path);
+    let tests = Step::new("tests of the Python package", "").argument(&clean);
+    words(tests, "-m pytest -p no:cacheprovider -c")
+        .argument(at("pyproject.toml"))
+        .argument("--rootdir")
+        .argument(root())
+        .argument(at("python/tests"))
+        .folder(&outside)
+        .run()?;
+    let types = Step::new("types of the Python package", "").argument(&clean);
+    words(types, "-m mypy --config-file")
+        .argument(at("pyproject.toml"))
+        .argument("-p")
+        .argument("flexura")
+        .run()?;
+    let stubs = Step::new("stubs of the Python package", "").argument(&clean);
+    words(stubs, "-m mypy.stubtest --ignore-missing-stub flexura._native").folder(&outside).run()
 }
 
 fn runs(program: &Path) -> bool {

@@ -24,13 +24,14 @@ pub struct Step<'a> {
     title: &'a str,
     words: Vec<String>,
     environment: Vec<(&'a str, String)>,
+    folder: PathBuf,
 }
 
 impl<'a> Step<'a> {
     /// `title` is printed; the command is split at spaces.
     pub fn new(title: &'a str, command: &str) -> Self {
         let words = command.split_whitespace().map(str::to_owned).collect();
-        Self { title, words, environment: Vec::new() }
+        Self { title, words, environment: Vec::new(), folder: root() }
     }
 
     /// One more argument, which may hold spaces.
@@ -45,9 +46,15 @@ impl<'a> Step<'a> {
         self
     }
 
+    /// The folder to run in, in place of the workspace's.
+    pub fn folder(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.folder = folder.into();
+        self
+    }
+
     fn command(&self) -> Command {
         let mut command = Command::new(&self.words[0]);
-        command.args(&self.words[1..]).current_dir(root());
+        command.args(&self.words[1..]).current_dir(&self.folder);
         for (name, value) in &self.environment {
             command.env(name, value);
         }

@@ -20,6 +20,7 @@ pub fn run() -> Outcome {
     check("the live page of the documentation is up to date", "live", live::check)?;
     check("generated files are up to date", "test", generate::check)?;
     python::check_schema(&python)?;
+    python::test_package(&python)?;
     println!("\nall checks and tests passed");
     Ok(())
 }

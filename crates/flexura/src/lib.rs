@@ -155,11 +155,13 @@
 mod motion_file;
 mod places;
 mod solve_file;
+mod stepper;
 mod sweep;
 mod trace_file;
 
 pub use motion_file::{Moved, inverse_dynamics_file, motion_view};
 pub use places::place;
+pub use stepper::Stepper;
 pub use sweep::{Axis, Remake, Sample, SampleStatus, Sweep, remake};
 
 pub use flexura_expression as expression;

@@ -1,0 +1,116 @@
+//! The studies of a file, each as its document.
+
+use crate::errors::{Wrong, bug};
+use crate::solved::{Request, Solved};
+use flexura::model::{Model, Study as Described, StudyKind};
+use flexura::output::{
+    TraceView, critical_csv, diagram_svg, modes_csv, modes_svg, motion_csv, motion_document, motion_svg,
+    path_csv, shapes_svg, to_json, trace_document,
+};
+use flexura::solution::Status;
+use flexura::{Buckled, Options, motion_view, solve_model};
+use pyo3::prelude::*;
+
+/// What a study came to.
+#[pyclass(frozen, module = "flexura._native")]
+pub struct Study {
+    /// `trace`, `buckle`, `inverse_dynamics` or `solve`.
+    #[pyo3(get)]
+    kind: String,
+    /// How it ended.
+    #[pyo3(get)]
+    status: String,
+    /// Why it did not do what was asked.
+    #[pyo3(get)]
+    reason: Option<String>,
+    /// The result document as JSON; None where it would hold a number that is none.
+    #[pyo3(get)]
+    document: Option<String>,
+    /// Pictures and tables by name.
+    #[pyo3(get)]
+    files: Vec<(String, String)>,
+    /// The equilibrium, of a study that is a solve.
+    solved: Option<Py<Solved>>,
+}
+
+#[pymethods]
+impl Study {
+    /// The equilibrium, of a study that is a solve.
+    #[getter]
+    fn solved(&self, py: Python<'_>) -> Option<Py<Solved>> {
+        self.solved.as_ref().map(|solved| solved.clone_ref(py))
+    }
+}
+
+impl Study {
+    /// Does a study of a file's model, without the interpreter's lock.
+    pub fn run(request: &Request, model: Model, study: &Described, options: &Options) -> Result<Self, Wrong> {
+        let refused = |error| Wrong::of_study(&request.file, &study.name, &error);
+        let text = || Some(request.file.text().to_owned());
+        let mut done = match &study.kind {
+            StudyKind::Solve => {
+                let (solution, model) = solve_model(&model, options, &mut |_| {})?;
+                let (status, reason) = (solution.status, solution.reason.clone());
+                let solved = Solved::new(request, model, solution);
+                let solved = Python::attach(|py| Py::new(py, solved));
+                let solved = solved.map_err(|error| Wrong::Told(error.to_string()))?;
+                Self { solved: Some(solved), ..Self::ended("solve", status, reason) }
+            }
+            StudyKind::Trace(trace) => {
+                let traced = flexura::trace(&model, trace, options, &mut |_| {});
+                let traced = traced.map_err(refused)?;
+                let view = TraceView::new(&model, trace, &traced);
+                let document = trace_document(&view).map(|mut document| {
+                    document.scene.iter_mut().for_each(|scene| scene.text = text());
+                    document
+                });
+                let document = document.and_then(|document| to_json(&document)).ok();
+                let mut files = vec![("diagram.svg", diagram_svg(&view)), ("shapes.svg", shapes_svg(&view))];
+                files.extend(path_csv(&view).map(|table| ("path.csv", table)));
+                files.extend(critical_csv(&view).ok().flatten().map(|table| ("critical.csv", table)));
+                let ended = Self::ended("trace", traced.status, traced.reason.clone());
+                Self { document, files: named(files), ..ended }
+            }
+            StudyKind::Buckle(buckle) => {
+                let buckled = Buckled::new(&model, buckle, options).map_err(refused)?;
+                let solution = &buckled.buckling.solution;
+                let document = buckled.document().map(|mut document| {
+                    document.scene.text = text();
+                    document
+                });
+                let document = document.and_then(|document| to_json(&document)).ok();
+                let mut files = vec![("modes.svg", modes_svg(&buckled.model, &buckled.buckling))];
+                files.extend(modes_csv(&model, &buckled.buckling).map(|table| ("modes.csv", table)));
+                let ended = Self::ended("buckle", solution.status, solution.reason.clone());
+                Self { document, files: named(files), ..ended }
+            }
+            StudyKind::InverseDynamics(motion) => {
+                let moved = flexura::inverse_dynamics(&model, motion, options, &mut |_| {});
+                let moved = moved.map_err(refused)?;
+                let view = motion_view(&model, &moved);
+                let document = motion_document(&view).map(|mut document| {
+                    document.scene.iter_mut().for_each(|scene| scene.text = text());
+                    document
+                });
+                let document = document.and_then(|document| to_json(&document)).ok();
+                let mut files = vec![("motion.svg", motion_svg(&view))];
+                files.extend(motion_csv(&view).map(|table| ("motion.csv", table)));
+                let ended = Self::ended("inverse_dynamics", moved.status, moved.reason.clone());
+                Self { document, files: named(files), ..ended }
+            }
+        };
+        if done.document.is_none() && done.solved.is_none() && done.status == Status::Converged.word() {
+            done.reason = Some(bug("the result holds a number that is none").to_string());
+        }
+        Ok(done)
+    }
+
+    fn ended(kind: &str, status: Status, reason: Option<String>) -> Self {
+        let (kind, status) = (kind.to_owned(), status.word().to_owned());
+        Self { kind, status, reason, document: None, files: Vec::new(), solved: None }
+    }
+}
+
+fn named(files: Vec<(&str, String)>) -> Vec<(String, String)> {
+    files.into_iter().map(|(name, text)| (name.to_owned(), text)).collect()
+}

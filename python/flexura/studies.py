@@ -1,0 +1,205 @@
+"""Paths of equilibria, critical loads, motions in time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _native
+from .records import Array, Record
+from .result import Shown
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+
+    from .model import Model
+
+
+class Study(Shown):
+    """What a study came to."""
+
+    def __init__(self, model: Model, native: _native.Study) -> None:
+        self._model = model
+        self._text = native.document
+        self.status = native.status
+        self.reason = native.reason
+        self.files = dict(native.files)
+
+    @property
+    def converged(self) -> bool:
+        """Did it do what was asked?"""
+        return self.status == "converged"
+
+    @property
+    def warnings(self) -> list[str]:
+        """What to know though it went well."""
+        return list(self.document.get("warnings", []))
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {key: value for key, value in self.__dict__.items() if key in {"_model", "_text", "status", "reason", "files"}}
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and (other._model, other._text) == (self._model, self._text)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def _picture(self) -> str:
+        return next((text for name, text in self.files.items() if name.endswith(".svg")), "")
+
+    def _repr_html_(self) -> str:
+        return f"<div>{self._picture()}</div>"
+
+
+class Branch:
+    """A smooth curve of equilibria: every list has one entry for each of its n points."""
+
+    def __init__(self, entries: Record, parameter: str) -> None:
+        self.points: Sequence[Record] = entries["points"]
+        self.record = entries
+        self._parameter = parameter
+
+    @cached_property
+    def parameter(self) -> Array:
+        """Values of the parameter (n,), SI."""
+        return np.array([point["parameter"] for point in self.points], dtype=float)
+
+    @cached_property
+    def kinds(self) -> list[str]:
+        """``regular``, ``fold``, ``branch``, ``event`` or ``end``."""
+        return [point["kind"] for point in self.points]
+
+    @cached_property
+    def stable(self) -> list[bool | None]:
+        """Is each stable? None where that is not decided."""
+        return [point["stable"] for point in self.points]
+
+    def output(self, name: Any) -> Array:
+        """An output along it: (n,), or (n, 3) of a vector; NaN where it has no value."""
+        values = [point["outputs"].get(str(name)) for point in self.points]
+        known = next((value for value in values if value is not None), np.nan)
+        blank = np.full(np.shape(known), np.nan)
+        return np.array([blank if value is None else value for value in values], dtype=float)
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} points, {self._parameter} from {self.parameter[0]:.6g} to {self.parameter[-1]:.6g}>"
+
+
+class Path(Study):
+    """Equilibria as one parameter changes, in one branch or several."""
+
+    @property
+    def parameter(self) -> str:
+        """Name of the parameter."""
+        return str(self.document["parameter"])
+
+    @cached_property
+    def branches(self) -> list[Branch]:
+        """The branches, the one that starts at rest first."""
+        return [Branch(entries, self.parameter) for entries in self.document["branches"]]
+
+    def _special(self, kind: str) -> list[Record]:
+        return [point for branch in self.branches for point in branch.points if point["kind"] == kind]
+
+    @property
+    def folds(self) -> list[Record]:
+        """Points at which the parameter turns back, to the solver's tolerance: ``.parameter``, ``.outputs``."""
+        return self._special("fold")
+
+    @property
+    def branch_points(self) -> list[Record]:
+        """Points at which branches cross."""
+        return self._special("branch")
+
+    @property
+    def events(self) -> list[Record]:
+        """Points at which something happens that was asked for."""
+        return self._special("event")
+
+    @property
+    def critical(self) -> Record | None:
+        """A critical point followed in a second parameter, where that was asked for."""
+        found: Record | None = self.document.get("critical")
+        return found
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each point of each branch; units stand in ``attrs``."""
+        import pandas
+
+        rows = []
+        for number, branch in enumerate(self.branches):
+            for i, point in enumerate(branch.points):
+                row: dict[str, Any] = {"branch": number, "point": i, "kind": point["kind"], self.parameter: point["parameter"]}
+                for name, value in point["outputs"].items():
+                    row |= _components(name, value)
+                row |= {key: point.get(key) for key in ("stable", "unstable_directions", "error_estimate")}
+                rows.append(row)
+        table = pandas.DataFrame(rows)
+        units = {self.parameter: self.model.parameters[self.parameter].unit}
+        table.attrs["units"] = {**units, **self.model.outputs}
+        return table
+
+    def plot(self, output: Any = None, axes: Axes | None = None, **style: Any) -> Axes:
+        """An output over the parameter: stable points solid, unstable ones dashed, undecided ones dotted."""
+        from .plotting import plot_path
+
+        return plot_path(self, output, axes, **style)
+
+    def __repr__(self) -> str:
+        counted = f"{len(self.branches)} branches, {sum(map(len, self.branches))} points, {len(self.folds)} folds"
+        return f"<flexura.Path {self.model.name!r} in {self.parameter}: {self.status}, {counted}>"
+
+
+def _components(name: str, value: Any) -> dict[str, Any]:
+    if np.ndim(value) == 0:
+        return {name: np.nan if value is None else value}
+    return {f"{name}.{letter}": value[i] for i, letter in enumerate("xyz")}
+
+
+class Buckling(Study):
+    """Critical loads of the problem linearised about an equilibrium."""
+
+    @property
+    def modes(self) -> list[Record]:
+        """The modes, nearest first: ``value``, ``error_estimate`` and shapes."""
+        return list(self.document["modes"])
+
+    @cached_property
+    def values(self) -> Array:
+        """The critical values: of the parameter (SI), or factors of all loads."""
+        return np.array([mode["value"] for mode in self.modes], dtype=float)
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{value:.6g}" for value in self.values)
+        return f"<flexura.Buckling {self.model.name!r}: {self.status}, critical at {values}>"
+
+
+class Motion(Study):
+    """A motion in time, and the forces that it takes."""
+
+    @cached_property
+    def times(self) -> Array:
+        """The times (n,), s. Where the acceleration jumps there are two of one time."""
+        return np.asarray(self.document["times"], dtype=float)
+
+    @property
+    def outputs(self) -> Record:
+        """Every output over time: (n,) or (n, 3)."""
+        return Record(self.document["outputs"])
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each time."""
+        import io
+
+        import pandas
+
+        return pandas.read_csv(io.StringIO(self.files["motion.csv"]))
+
+    def __repr__(self) -> str:
+        return f"<flexura.Motion {self.model.name!r}: {self.status}, {len(self.times)} times to {self.times[-1]:.6g} s>"
