@@ -25,7 +25,7 @@ fn a_loop_in_c_finds_what_rust_finds() {
         .arg("-o")
         .arg(&program)
         .arg("-L")
-        .arg(library)
+        .arg(&library)
         .args(["-lflexura_c", "-lm"])
         .arg(format!("-Wl,-rpath,{}", library.display()))
         .status();
