@@ -355,7 +355,7 @@ fn towards(grasp: &Grasp, miss: &Vector3<f64>, eye: &Vector3<f64>) -> Vec<f64> {
         matrix += column * column.transpose();
     }
     let size = matrix.trace();
-    if !(size > 0.0) {
+    if size.is_nan() || size <= 0.0 {
         return vec![0.0; seen.len()];
     }
     for i in 0..3 {

@@ -82,7 +82,7 @@ fn rest_pose(beam: &BeamScene, s: f64) -> Option<Pose> {
     let next = beam.s.partition_point(|known| *known < s).min(beam.s.len().checked_sub(1)?);
     let ((a, before), (b, after)) = (at(next.saturating_sub(1))?, at(next)?);
     let width = b - a;
-    if !(width > 0.0) {
+    if width.is_nan() || width <= 0.0 {
         return Some(after);
     }
     let t = ((s - a) / width).clamp(0.0, 1.0);
