@@ -1,5 +1,8 @@
 //! A program in C is compiled against the header, linked with the library and run.
 
+// Clippy takes helpers of tests for code that must not panic.
+#![allow(clippy::unwrap_used)]
+
 use flexura::{Options, solve_file};
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -67,7 +67,7 @@ pub(super) fn law(reader: &Reader<'_, '_>) -> Read<JointLaw> {
         }
         "cylindrical" => {
             let axis = reader.direction("axis").needed();
-            bind_second(reader, None);
+            bind_second(reader, "second_axis", axis.as_ref().unwrap_or(&Vector3::x()), None);
             let coordinates = coordinates(reader, JointKind::Cylindrical);
             Ok(JointLaw { coordinates: coordinates?, ..JointLaw::free(JointKind::Cylindrical, axis?) })
         }
@@ -82,7 +82,7 @@ pub(super) fn law(reader: &Reader<'_, '_>) -> Read<JointLaw> {
 
 fn one_coordinate(reader: &Reader<'_, '_>, kind: JointKind) -> Read<JointLaw> {
     let axis = reader.direction("axis").needed();
-    bind_second(reader, None);
+    bind_second(reader, "second_axis", axis.as_ref().unwrap_or(&Vector3::x()), None);
     let law = coordinate(reader);
     Ok(JointLaw { coordinates: vec![law?], ..JointLaw::free(kind, axis?) })
 }
@@ -103,7 +103,7 @@ pub(super) fn across_axis(
     coordinates: Read<Vec<CoordinateLaw>>,
 ) -> Read<JointLaw> {
     let across = reader.direction(second)?;
-    bind_second(reader, Some((second, &axis, across.as_ref())));
+    bind_second(reader, second, &axis, across.as_ref());
     let mut law = JointLaw { coordinates: coordinates?, ..JointLaw::free(kind, axis) };
     if let Some(across) = across {
         let cosine = axis.dot(&across);
@@ -129,27 +129,18 @@ pub(super) fn across_axis(
 }
 
 /// The rule of a second axis, which follows the first: that under the key and what it is given as, or the one that the model chooses.
-fn bind_second(reader: &Reader<'_, '_>, given: Option<(&str, &Vector3<f64>, Option<&Vector3<f64>>)>) {
+fn bind_second(reader: &Reader<'_, '_>, key: &str, first: &Vector3<f64>, near: Option<&Vector3<f64>>) {
     let rules = &reader.context.rules;
     let axis = rules.direction(&reader.key_path("axis"));
+    let path = reader.key_path(key);
     let constants = |vector: &Vector3<f64>| <[f64; 3]>::from(*vector).map(Formula::constant);
-    match given {
-        Some((key, first, Some(near))) => {
-            let path = reader.key_path(key);
-            let near_formulas = rules.take_direction(&path);
-            if axis.is_some() || near_formulas.is_some() {
-                let axis = axis.unwrap_or_else(|| constants(first));
-                let near = Some(near_formulas.unwrap_or_else(|| constants(near)));
-                rules.put(path, Rule::Across { axis, near });
-            }
-        }
-        _ => {
-            let key = given.map_or("second_axis", |(key, ..)| key);
-            if let Some(axis) = axis {
-                rules.put(reader.key_path(key), Rule::Across { axis, near: None });
-            }
-        }
+    let near_formulas = near.and_then(|_| rules.take_direction(&path));
+    if axis.is_none() && near_formulas.is_none() {
+        return;
     }
+    let axis = axis.unwrap_or_else(|| constants(first));
+    let near = near.map(|near| near_formulas.unwrap_or_else(|| constants(near)));
+    rules.put(path, Rule::Across { axis, near });
 }
 
 /// A number to four decimals, without needless zeros.
