@@ -1,5 +1,7 @@
 //! A model with other values of its parameters is the one that its file makes with them, to the last bit.
 
+// Clippy takes helpers of tests for code that must not panic.
+#![allow(clippy::unwrap_used)]
 use flexura_model::Model;
 use flexura_modelfile::{Document, to_toml};
 use std::path::PathBuf;
