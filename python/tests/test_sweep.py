@@ -199,6 +199,16 @@ def test_ten_thousand_samples_killed_three_times(tmp_path: Path, kind: str, endi
     np.testing.assert_array_equal(table.outputs["slope"][some], expected)
 
 
+@pytest.mark.parametrize("ending", [".zarr", ".parquet", ".csv"])
+def test_a_store_whose_beginning_was_killed_is_begun_again(frame: fx.Model, tmp_path: Path, ending: str) -> None:
+    store = tmp_path / f"run{ending}"
+    frame.sweep({"load": LOADS}, ["down"], store=store)
+    beside = tmp_path / f".run{ending}.1.tmp"
+    store.rename(beside)
+    assert frame.sweep({"load": LOADS}, ["down"], store=store).solved == 15
+    assert frame.sweep({"load": LOADS}, ["down"], store=store).solved == 0
+
+
 def test_ctrl_c_ends_a_sweep(tmp_path: Path) -> None:
     script = tmp_path / "run.py"
     script.write_text(KILLED.replace("if __name__", "import signal\nif __name__"))
