@@ -255,6 +255,7 @@ class ZarrStore(_Kept):
     def __init__(self, place: Path, about: Mapping[str, Any]) -> None:
         super().__init__(place, about)
         self._group: Any = None
+        self._done: Any = None
 
     def _open(self) -> Any:
         if self._group is None:
@@ -264,11 +265,13 @@ class ZarrStore(_Kept):
         return self._group
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_group": None}
+        return {**self.__dict__, "_group": None, "_done": None}
 
     def is_done(self, number: int) -> bool:
-        """Is the chunk there?"""
-        return bool(self._open()["done"][number] == 1)
+        """Is the chunk there? One that another process has written since is looked for in a copy of this."""
+        if self._done is None:
+            self._done = self._open()["done"][:]
+        return bool(self._done[number] == 1)
 
     def read(self, number: int) -> Rows:
         """A chunk that is there."""
