@@ -11,7 +11,8 @@ import io
 import json
 import math
 import os
-from collections.abc import Mapping, Sequence
+import shutil
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -116,12 +117,27 @@ def open_store(path: str | os.PathLike[str], about: Mapping[str, Any], create: b
         if not create:
             return None
         kind.create(place, about)
-        known = about
+        # Another process may have begun it meanwhile.
+        known = kind.about(place) or about
     if known.get("key") != about["key"]:
         what = ("model", "values", "parameters", "columns", "tolerance", "continuation", "samples", "flexura")
         differing = [word for word in what if known.get(word) != about.get(word)] or ["the samples themselves"]
         raise StudyError(f"the store {place} belongs to another sweep (other: {', '.join(differing)}); name another place, or remove it")
     return kind(place, known)
+
+
+def _begin(place: Path, fill: Callable[[Path], None]) -> None:
+    """A folder, filled beside its place, so that it is there whole or not at all."""
+    place.parent.mkdir(parents=True, exist_ok=True)
+    beside = place.with_name(f".{place.name}.{os.getpid()}.tmp")
+    shutil.rmtree(beside, ignore_errors=True)
+    beside.mkdir()
+    fill(beside)
+    try:
+        os.replace(beside, place)
+    except OSError:
+        # Another process was faster.
+        shutil.rmtree(beside, ignore_errors=True)
 
 
 def _replace(path: Path, content: bytes) -> None:
@@ -168,8 +184,7 @@ class ParquetStore(_Kept):
     @classmethod
     def create(cls, place: Path, about: Mapping[str, Any]) -> None:
         """Begins it."""
-        place.mkdir(parents=True, exist_ok=True)
-        _replace(cls._notes(place), json.dumps(about, indent=2).encode())
+        _begin(place, lambda beside: _replace(cls._notes(beside), json.dumps(about, indent=2).encode()))
 
     def _part(self, number: int) -> Path:
         return self._place / f"part-{number:07d}.parquet"
@@ -219,6 +234,10 @@ class ZarrStore(_Kept):
     @classmethod
     def create(cls, place: Path, about: Mapping[str, Any]) -> None:
         """Begins it."""
+        _begin(place, lambda beside: cls._fill(beside, about))
+
+    @staticmethod
+    def _fill(place: Path, about: Mapping[str, Any]) -> None:
         import zarr
 
         group = zarr.open_group(place, mode="w")
@@ -236,6 +255,7 @@ class ZarrStore(_Kept):
     def __init__(self, place: Path, about: Mapping[str, Any]) -> None:
         super().__init__(place, about)
         self._group: Any = None
+        self._done: Any = None
 
     def _open(self) -> Any:
         if self._group is None:
@@ -245,11 +265,13 @@ class ZarrStore(_Kept):
         return self._group
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_group": None}
+        return {**self.__dict__, "_group": None, "_done": None}
 
     def is_done(self, number: int) -> bool:
-        """Is the chunk there?"""
-        return bool(self._open()["done"][number] == 1)
+        """Is the chunk there? One that another process has written since is looked for in a copy of this."""
+        if self._done is None:
+            self._done = self._open()["done"][:]
+        return bool(self._done[number] == 1)
 
     def read(self, number: int) -> Rows:
         """A chunk that is there."""
@@ -291,14 +313,14 @@ class CsvStore(_Kept):
     def create(cls, place: Path, about: Mapping[str, Any]) -> None:
         """Begins it."""
         place.parent.mkdir(parents=True, exist_ok=True)
-        heading = ["sample", *about["parameters"], *about["columns"], "status", "reason"]
-        _replace(place, _line(heading).encode())
         _replace(cls._notes(place), json.dumps(about, indent=2).encode())
 
     def __init__(self, place: Path, about: Mapping[str, Any]) -> None:
         super().__init__(place, about)
         self._parameters = len(about["parameters"])
         self._known: dict[int, list[str]] | None = None
+        if not place.exists():
+            _replace(place, _line(["sample", *about["parameters"], *about["columns"], "status", "reason"]).encode())
         content = place.read_bytes() if place.is_file() else b""
         whole = content.rfind(b"\n") + 1
         if whole < len(content):

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import pickle
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
+from one_of_each import CLASSES, OUTPUTS, X, expected_jacobian, mechanism
 
 import flexura as fx
 
@@ -15,69 +15,9 @@ jax = pytest.importorskip("jax")
 jax.config.update("jax_enable_x64", True)
 jnp = jax.numpy
 
-#: A parameter of every class, with its value (SI).
-CLASSES = {
-    "length": 0.2,
-    "position": 0.05,
-    "rotation": 0.1,
-    "material": 200e9,
-    "section": 1e-3,
-    "load": 0.4,
-    "moment": 0.005,
-    "stiffness": 3.0,
-    "rest_value": 0.08,
-    "law": 0.3,
-    "joint_stiffness": 0.02,
-    "joint_rest": 0.05,
-}
-
-
-def mechanism() -> fx.Model:
-    m = fx.Model("one of each")
-    p = {name: m.parameter(name, value) for name, value in CLASSES.items()}
-    for name, unit in (("length", "m"), ("position", "m"), ("rotation", "rad"), ("material", "Pa"), ("section", "m"), ("load", "N")):
-        m.set(f"parameter.{name}", f"{CLASSES[name]!r} {unit}")
-    steel = m.material("steel", young=p["material"], poisson=0.3)
-    wire = m.section("wire", shape="circle", diameter=p["section"])
-    turned = {"axis": [0, 0, 1], "angle": p["rotation"]}
-    stage = m.body("stage", at=["0.2 m", p["position"], 0])
-    leaf = m.beam("leaf", material=steel, section=wire, length=p["length"], start=fx.clamp("ground", rotation=turned), end=fx.clamp(stage))
-    m.spring("straight", from_=fx.place("ground", at=[0.2, -0.1, 0.02]), to=fx.place(stage), stiffness=p["stiffness"], rest_length=p["rest_value"])
-    m.spring("toe", from_=fx.place("ground", at=[0.3, 0.1, 0]), to=fx.place(leaf, at=0.6), law="toe", axial_stiffness=p["law"], toe_strain=0.05, rest_length=0.1)
-    arm = m.body("arm", at=["0.2 m", p["position"], 0])
-    m.joint("hinge", kind="revolute", parent=stage, child=arm, axis=[0, 0, 1], stiffness=p["joint_stiffness"], rest=p["joint_rest"])
-    m.load("push", body=stage, force=[0, p["load"], "0.1 N"])
-    m.load("turn", body=arm, moment=[0, 0, p["moment"]])
-    m.output("stage", stage.position)
-    m.output("hinge", "joint.hinge.coordinate")
-    m.output("energy", "spring.straight.tension")
-    return m
-
-
-def differences(f: Callable[[np.ndarray], np.ndarray], x: np.ndarray) -> np.ndarray:
-    """Central differences of order six."""
-    columns = []
-    for i, value in enumerate(x):
-        h = 2e-3 * value
-        step = np.eye(len(x))[i] * h
-        weights = {1: 3 / 4, 2: -3 / 20, 3: 1 / 60}
-        columns.append(sum(w * (f(x + j * step) - f(x - j * step)) for j, w in weights.items()) / h)
-    return np.array(columns).T
-
-
-X = np.array(list(CLASSES.values()))
-OUTPUTS = ["stage", "hinge", "energy"]
-
-
 @pytest.fixture(scope="module")
 def expected() -> np.ndarray:
-    m = mechanism()
-
-    def f(x: np.ndarray) -> np.ndarray:
-        outputs = m.solve(dict(zip(CLASSES, x.tolist(), strict=True)), tolerance=1e-11).outputs
-        return np.concatenate([np.atleast_1d(outputs[name]) for name in OUTPUTS])
-
-    return differences(f, X)
+    return expected_jacobian()
 
 
 @pytest.mark.parametrize("name", CLASSES)
@@ -146,17 +86,6 @@ def test_what_is_found_has_a_gradient_by_what_is_given() -> None:
     difference = (f(jnp.array([0.05 + h])) - f(jnp.array([0.05 - h]))) / (2 * h)
     found = jax.jacfwd(f)(jnp.array([0.05]))
     np.testing.assert_allclose(found[:, 0], difference, rtol=1e-5)
-
-
-def test_torch_gets_the_same_gradient(expected: np.ndarray) -> None:
-    torch = pytest.importorskip("torch")
-    f = fx.torch.function(mechanism(), list(CLASSES), OUTPUTS)
-    x = torch.tensor(X, dtype=torch.float64, requires_grad=True)
-    jacobian = torch.autograd.functional.jacobian(f, x).numpy()
-    scale = np.abs(expected).max(axis=0)
-    np.testing.assert_allclose(jacobian / scale, expected / scale, atol=1e-6)
-    f(x).sum().backward()
-    np.testing.assert_allclose(x.grad.numpy() / scale, expected.sum(axis=0) / scale, atol=1e-5)
 
 
 def test_a_model_for_gradients_travels() -> None:

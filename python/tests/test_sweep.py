@@ -162,7 +162,7 @@ if __name__ == "__main__":
     file, store, kind, count = sys.argv[1:]
     pool = ThreadPoolExecutor(2) if kind == "threads" else ProcessPoolExecutor(2, get_context("spawn"))
     print("begun", flush=True)
-    table = fx.load(file).sweep({"payload": np.linspace(0.01, 0.05, int(count))}, ["slope"], store=store, executor=pool, chunk=50)
+    table = fx.load(file).sweep({"push": np.linspace(1.0, 2.0, int(count))}, ["height"], store=store, executor=pool, chunk=50)
     print(table.solved, flush=True)
 """
 
@@ -172,19 +172,19 @@ def test_ten_thousand_samples_killed_three_times(tmp_path: Path, kind: str, endi
     script, store = tmp_path / "run.py", tmp_path / f"run{ending}"
     script.write_text(KILLED)
     count = 10_000
-    program = [sys.executable, str(script), str(MODELS / "cantilever_strip.toml"), str(store), kind, str(count)]
-    m, space = fx.load(MODELS / "cantilever_strip.toml"), {"payload": np.linspace(0.01, 0.05, count)}
+    program = [sys.executable, str(script), str(MODELS / "compression_spring.toml"), str(store), kind, str(count)]
+    m, space = fx.load(MODELS / "compression_spring.toml"), {"push": np.linspace(1.0, 2.0, count)}
     done = [0]
     written: dict[str, int] = {}
     for _ in range(3):
         with subprocess.Popen(program, stdout=subprocess.PIPE, text=True, start_new_session=True) as process:
             while True:
                 time.sleep(0.1)
-                explained = m.sweep(space, ["slope"], store=store, explain=True)
+                explained = m.sweep(space, ["height"], store=store, explain=True)
                 if explained.done >= done[-1] + 300 or process.poll() is not None:
                     break
             os.killpg(process.pid, signal.SIGKILL)
-        done.append(m.sweep(space, ["slope"], store=store, explain=True).done)
+        done.append(m.sweep(space, ["height"], store=store, explain=True).done)
         # What was written before is not written again.
         files = {path.name: path.stat().st_mtime_ns for path in store.glob("part-*")}
         assert all(files[name] == time_ for name, time_ in written.items())
@@ -192,17 +192,27 @@ def test_ten_thousand_samples_killed_three_times(tmp_path: Path, kind: str, endi
     assert done == sorted(done) and done[-1] < count
     found = subprocess.run(program, capture_output=True, text=True, check=True).stdout.split()
     assert int(found[-1]) == count - done[-1]
-    table = m.sweep(space, ["slope"], store=store)
+    table = m.sweep(space, ["height"], store=store)
     assert table.solved == 0 and table.converged.all()
     some = slice(0, count, 997)
-    expected = [m.solve(payload=payload, samples=2).outputs["slope"] for payload in space["payload"][some].tolist()]
-    np.testing.assert_array_equal(table.outputs["slope"][some], expected)
+    expected = [m.solve(push=push, samples=2).outputs["height"] for push in space["push"][some].tolist()]
+    np.testing.assert_array_equal(table.outputs["height"][some], expected)
+
+
+@pytest.mark.parametrize("ending", [".zarr", ".parquet", ".csv"])
+def test_a_store_whose_beginning_was_killed_is_begun_again(frame: fx.Model, tmp_path: Path, ending: str) -> None:
+    store = tmp_path / f"run{ending}"
+    frame.sweep({"load": LOADS}, ["down"], store=store)
+    beside = tmp_path / f".run{ending}.1.tmp"
+    store.rename(beside)
+    assert frame.sweep({"load": LOADS}, ["down"], store=store).solved == 15
+    assert frame.sweep({"load": LOADS}, ["down"], store=store).solved == 0
 
 
 def test_ctrl_c_ends_a_sweep(tmp_path: Path) -> None:
     script = tmp_path / "run.py"
     script.write_text(KILLED.replace("if __name__", "import signal\nif __name__"))
-    program = [sys.executable, str(script), str(MODELS / "cantilever_strip.toml"), str(tmp_path / "run.csv"), "threads", "1000000"]
+    program = [sys.executable, str(script), str(MODELS / "compression_spring.toml"), str(tmp_path / "run.csv"), "threads", "1000000"]
     with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None and process.stderr is not None
         assert process.stdout.readline() == "begun\n"

@@ -64,12 +64,11 @@ pub fn test_package(python: &Path) -> Outcome {
         .argument(at("python/tests"))
         .folder(&outside)
         .run()?;
-    let types = Step::new("types of the Python package", "").argument(&clean);
-    words(types, "-m mypy --config-file")
-        .argument(at("pyproject.toml"))
-        .argument("-p")
-        .argument("flexura")
-        .run()?;
+    for what in [&["-p", "flexura"][..], &["python/tests", "python/tables.py"]] {
+        let types = Step::new("types of the Python package", "").argument(&clean);
+        let types = words(types, "-m mypy --config-file").argument(at("pyproject.toml"));
+        what.iter().fold(types, |step, word| step.argument(word)).run()?;
+    }
     let stubs = Step::new("stubs of the Python package", "").argument(&clean);
     words(stubs, "-m mypy.stubtest --ignore-missing-stub flexura._native").folder(&outside).run()
 }
