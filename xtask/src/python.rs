@@ -1,6 +1,7 @@
 //! A Python of our own with the packages that the tests need, kept between runs.
 
 use crate::step::{Outcome, Step, entries, exists, read, root, target};
+use crate::viewer;
 use std::path::{Path, PathBuf};
 
 const OLD: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
@@ -70,7 +71,44 @@ pub fn test_package(python: &Path) -> Outcome {
         what.iter().fold(types, |step, word| step.argument(word)).run()?;
     }
     let stubs = Step::new("stubs of the Python package", "").argument(&clean);
-    words(stubs, "-m mypy.stubtest --ignore-missing-stub flexura._native").folder(&outside).run()
+    words(stubs, "-m mypy.stubtest --ignore-missing-stub flexura._native").folder(&outside).run()?;
+    test_torch(wheel)
+}
+
+/// Gradients by PyTorch: by Debian's, since that of the Python registry takes gigabytes, in an environment that sees it and the
+/// wheel.
+fn test_torch(wheel: &Path) -> Outcome {
+    const DEBIAN: &str = "/usr/bin/python3";
+    let there = || {
+        let import = std::process::Command::new(DEBIAN).args(["-c", "import torch"]).output();
+        import.is_ok_and(|output| output.status.success())
+    };
+    if !there() {
+        if !exists("apt-get --version") {
+            println!("    gradients by PyTorch left out: they are tested with Debian's");
+            return Ok(());
+        }
+        viewer::debian(&["python3-torch", "python3-venv"])?;
+    }
+    let folder = target().join("python-torch");
+    let program = folder.join("bin/python");
+    if !runs(&program) {
+        let venv =
+            Step::new("Python environment with PyTorch", &format!("{DEBIAN} -m venv --system-site-packages"));
+        venv.argument(&folder).run()?;
+    }
+    let install = Step::new("Python package beside PyTorch", "").argument(&program);
+    words(install, "-m pip install --quiet --disable-pip-version-check --force-reinstall --no-deps")
+        .argument(wheel)
+        .run()?;
+    let install = Step::new("its test runner", "").argument(&program);
+    words(install, "-m pip install --quiet --disable-pip-version-check pytest==9.2.0").run()?;
+    let tests = Step::new("gradients by PyTorch", "").argument(&program);
+    words(tests, "-m pytest -q -p no:cacheprovider -c /dev/null --rootdir")
+        .argument(root())
+        .argument(root().join("python/tests/test_torch.py"))
+        .folder(std::env::temp_dir())
+        .run()
 }
 
 fn runs(program: &Path) -> bool {

@@ -208,10 +208,11 @@ fn chromium() -> Outcome {
     debian(&["chromium", "fonts-dejavu-core"])
 }
 
-fn debian(packages: &[&str]) -> Outcome {
+/// Installs packages of Debian.
+pub fn debian(packages: &[&str]) -> Outcome {
     let wanted = packages.join(" ");
     if !exists("apt-get --version") {
-        return Err(format!("install {wanted}: the page is built and tested with them"));
+        return Err(format!("install {wanted}: the tests need them"));
     }
     let root = if exists("sudo --version") { "sudo " } else { "" };
     Step::new("package lists", &format!("{root}apt-get update -qq")).run()?;

@@ -45,8 +45,16 @@ impl<'m> ModelFamily<'m> {
 
 impl Family for ModelFamily<'_> {
     fn model(&mut self, values: &[(usize, f64)]) -> Result<Model, ProblemError> {
+        let given = |(position, _): &(usize, f64)| self.model.parameters.get(*position);
+        if let Some(parameter) = values.iter().filter_map(given).find(|parameter| parameter.is_structural) {
+            return Err(ProblemError::new(
+                format!("parameter.{}", parameter.name),
+                "decides of which parts the mechanism is made, so that nothing leads from one value to the next",
+                "solve at each value, as `flexura sweep` does",
+            ));
+        }
         let unsound = |issue: Issue| {
-            let first = values.first().and_then(|(position, _)| self.model.parameters.get(*position));
+            let first = values.first().and_then(given);
             ProblemError::new(
                 format!("parameter.{}", first.map_or("", |parameter| parameter.name.as_str())),
                 format!("other values make no sound model: {}", issue.message),
