@@ -14,7 +14,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-import flexura
+# The package that is installed is meant, not its sources beside this file, which lack the native part.
+sys.path[:] = [place for place in sys.path if Path(place).resolve() != Path(__file__).resolve().parent]
+import flexura  # noqa: E402
 
 STUB = Path(__file__).parent / "flexura" / "_tables.pyi"
 
