@@ -53,6 +53,8 @@ class _Told(FlexuraError):
     def of(cls, problems: Sequence[Mapping[str, Any]], omitted: int = 0) -> Self:
         """From problems as the native part tells them."""
         list_ = [Problem(**problem) for problem in problems]
+        # Of a table as a whole its name stands there, which is no value.
+        list_ = [one._replace(value=None) if one.value == one.key else one for one in list_]
         texts = [str(problem) for problem in list_]
         if omitted:
             texts.append(f"... and {omitted} more")

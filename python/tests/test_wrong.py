@@ -130,3 +130,11 @@ def test_what_is_loose_is_named() -> None:
         m.check()
     assert caught.value.path == "body.stage"
     assert caught.value.hint
+
+
+def test_the_name_of_a_table_that_lacks_a_key_is_no_value() -> None:
+    m = fx.Model()
+    m.beam("b", length=1)
+    with pytest.raises(fx.ModelError, match="`section` is missing") as caught:
+        m.solve()
+    assert (caught.value.path, caught.value.value) == ("beam.b", None) and "found" not in str(caught.value)
