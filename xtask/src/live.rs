@@ -67,8 +67,14 @@ fn module() -> Outcome {
             .variable("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", linker()?.display().to_string())
     };
     // Every browser of the last years has vectors.
-    let flags = "-C target-feature=+simd128";
-    step.variable("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", flags)
+    let mut flags = "-C target-feature=+simd128".to_owned();
+    // Where the sources of libraries stand on this machine is nobody's business.
+    if let Some(home) = std::env::home_dir() {
+        let cargo = std::env::var_os("CARGO_HOME").map_or_else(|| home.join(".cargo"), PathBuf::from);
+        flags += &format!(" --remap-path-prefix={}=cargo", cargo.display());
+        flags += &format!(" --remap-path-prefix={}=home", home.display());
+    }
+    step.variable("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", &flags)
         .variable("CARGO_TARGET_DIR", folder.display().to_string())
         .run()?;
     let built = folder.join(TARGET).join("wasm/flexura_live.wasm");
