@@ -27,7 +27,7 @@ mod tubes;
 mod validate;
 
 pub use beam::{Beam, BeamTheory, Curve, Distributed, End, LoadAxes, SectionFrame};
-pub use binding::{ALMOST_RIGHT, Binding, Bindings, Part, Rule};
+pub use binding::{ALMOST_RIGHT, Binding, Bindings, Part, Rule, direction_of, roll_pitch_yaw};
 pub use body::{Body, Frame, Mount};
 pub use cable::{Cable, CableLaw, Guide};
 pub use contact::{

@@ -8,20 +8,13 @@
 use crate::Prepared;
 use crate::family::Family;
 use crate::sensitivity::SensitivityError;
-use flexura_equilibrium::Law;
+use flexura_equilibrium::{CENTRAL, Law};
 #[cfg(doc)]
 use flexura_model::Model;
 use flexura_nonlinear::System;
 
-/// Places, and weights of orders six and four there.
-const PLACES: [(f64, f64, f64); 6] = [
-    (1.0, 45.0 / 60.0, 8.0 / 12.0),
-    (-1.0, -45.0 / 60.0, -8.0 / 12.0),
-    (2.0, -9.0 / 60.0, -1.0 / 12.0),
-    (-2.0, 9.0 / 60.0, 1.0 / 12.0),
-    (3.0, 1.0 / 60.0, 0.0),
-    (-3.0, -1.0 / 60.0, 0.0),
-];
+/// Weights of order four at the places of [`CENTRAL`], whose own are of order six.
+const FOURTH: [f64; 6] = [8.0 / 12.0, -8.0 / 12.0, -1.0 / 12.0, 1.0 / 12.0, 0.0, 0.0];
 
 /// The laws of the mechanisms beside the present one.
 pub(crate) struct Beside {
@@ -51,8 +44,8 @@ impl Prepared {
         value: f64,
         h: f64,
     ) -> Result<Beside, SensitivityError> {
-        let mut laws = Vec::with_capacity(PLACES.len());
-        for (place, ..) in PLACES {
+        let mut laws = Vec::with_capacity(CENTRAL.len());
+        for (place, _) in CENTRAL {
             let model = family.model(&self.values_with(parameter, value + place * h))?;
             laws.push(Some(self.problem.neighbour(model)?));
         }
@@ -65,8 +58,8 @@ impl Prepared {
         beside: &mut Beside,
         mut there: impl FnMut(&mut Self, f64) -> Result<T, SensitivityError>,
     ) -> Result<Vec<T>, SensitivityError> {
-        let mut found = Vec::with_capacity(PLACES.len());
-        for ((place, ..), slot) in PLACES.iter().zip(&mut beside.laws) {
+        let mut found = Vec::with_capacity(CENTRAL.len());
+        for ((place, _), slot) in CENTRAL.iter().zip(&mut beside.laws) {
             let Some(law) = slot.take() else { continue };
             let own = self.problem.exchange(law);
             let outcome = there(self, place * beside.h);
@@ -95,7 +88,7 @@ impl Prepared {
         });
         self.problem.restore(&kept);
         let mut sum = vec![0.0; n];
-        for ((_, weight, _), step) in PLACES.iter().zip(&steps?) {
+        for ((_, weight), step) in CENTRAL.iter().zip(&steps?) {
             sum.iter_mut().zip(step).for_each(|(s, d)| *s += weight / h * d);
         }
         Ok(sum)
@@ -128,7 +121,7 @@ impl Prepared {
         let count = all.first().map_or(0, Vec::len);
         let slope = |k: usize| {
             let (mut six, mut four, mut level) = (0.0, 0.0, 0.0_f64);
-            for ((_, w6, w4), values) in PLACES.iter().zip(&all) {
+            for (((_, w6), w4), values) in CENTRAL.iter().zip(&FOURTH).zip(&all) {
                 let y = values[k]?;
                 six += w6 / h * y;
                 four += w4 / h * y;

@@ -10,7 +10,7 @@ mod set;
 mod visit;
 mod visit_joint;
 
-pub use rule::{ALMOST_RIGHT, Rule};
+pub use rule::{ALMOST_RIGHT, Rule, direction_of, roll_pitch_yaw};
 pub use visit::Part;
 
 use crate::{Issue, Model, Parameter};

@@ -116,11 +116,7 @@ impl Rule {
             Rule::RollPitchYaw(formulas) => {
                 let rpy = vector(formulas);
                 number(rpy.sum())?;
-                Value::Rotation(
-                    exp(&(Vector3::z() * rpy.z))
-                        * exp(&(Vector3::y() * rpy.y))
-                        * exp(&(Vector3::x() * rpy.x)),
-                )
+                Value::Rotation(roll_pitch_yaw(&rpy))
             }
             Rule::Quaternion(formulas) => {
                 let [w, x, y, z] = formulas.each_ref().map(|f| f.evaluate(slots));
@@ -182,11 +178,18 @@ fn number(value: f64) -> Result<f64, Wrong> {
 }
 
 fn unit(vector: Vector3<f64>) -> Result<Vector3<f64>, Wrong> {
+    number(vector.sum())?;
+    direction_of(&vector).ok_or_else(|| ("a direction must not be zero".to_string(), "for example [1, 0, 0]"))
+}
+
+/// The unit vector along a vector; None where that is zero.
+pub fn direction_of(vector: &Vector3<f64>) -> Option<Vector3<f64>> {
     // Scaled first, so that neither tiny nor huge components are lost in the squares.
     let scale = vector.amax();
-    number(scale)?;
-    if scale == 0.0 {
-        return Err(("a direction must not be zero".to_string(), "for example [1, 0, 0]"));
-    }
-    Ok((vector / scale).normalize())
+    (scale != 0.0).then(|| (vector / scale).normalize())
+}
+
+/// Rz(yaw) Ry(pitch) Rx(roll).
+pub fn roll_pitch_yaw(rpy: &Vector3<f64>) -> UnitQuaternion<f64> {
+    exp(&(Vector3::z() * rpy.z)) * exp(&(Vector3::y() * rpy.y)) * exp(&(Vector3::x() * rpy.x))
 }

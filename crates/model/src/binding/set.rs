@@ -3,7 +3,7 @@
 use super::rule::{Value, Wrong};
 use super::visit::{Item, Step, Visit};
 use super::{Binding, Bindings, Rule, order};
-use crate::{Issue, Model, Quantity};
+use crate::{Issue, Model, Parameter, Quantity};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -68,6 +68,18 @@ impl Parts {
     }
 }
 
+/// Other values of what decides of which parts the mechanism is made are for whoever reads the model.
+fn refuse_structural(parameter: &Parameter, value: f64) -> Result<(), Issue> {
+    if !parameter.is_structural || parameter.value == value {
+        return Ok(());
+    }
+    Err(Issue {
+        path: format!("parameter.{}", parameter.name),
+        message: "it decides of which parts the mechanism is made".to_string(),
+        hint: Some("read the file again with another value".to_string()),
+    })
+}
+
 impl Model {
     pub(super) fn parts(&mut self) -> u64 {
         let mut parts = Parts(0xcbf2_9ce4_8422_2325);
@@ -101,13 +113,7 @@ impl Model {
                     hint: None,
                 });
             };
-            if parameter.is_structural && parameter.value != *value {
-                return Err(Issue {
-                    path: format!("parameter.{}", parameter.name),
-                    message: "it decides of which parts the mechanism is made".to_string(),
-                    hint: Some("read the file again with another value".to_string()),
-                });
-            }
+            refuse_structural(parameter, *value)?;
             parameter.value = *value;
             parameter.formula = None;
         }
@@ -126,13 +132,7 @@ impl Model {
                     hint: None,
                 });
             }
-            if parameter.is_structural && parameter.value != value {
-                return Err(Issue {
-                    path: format!("parameter.{}", parameter.name),
-                    message: "it decides of which parts the mechanism is made".to_string(),
-                    hint: Some("read the file again with another value".to_string()),
-                });
-            }
+            refuse_structural(parameter, value)?;
             (parameter.value, slots[*position]) = (value, value);
         }
         let bindings_list = bindings.list.iter().peekable();

@@ -4,7 +4,7 @@ use crate::context::{Read, Reported};
 use crate::reader::Reader;
 use crate::tree::Value;
 use flexura_expression::{Dimension, Formula, Quantity};
-use flexura_model::{Body, Rule};
+use flexura_model::{Body, Rule, roll_pitch_yaw};
 use flexura_spatial::{Matrix3, Pose, Quaternion, UnitQuaternion, Vector3, exp};
 
 pub(super) fn body(reader: &Reader<'_, '_>, name: String) -> Read<Body> {
@@ -109,9 +109,7 @@ pub(super) fn rotation(reader: &Reader<'_, '_>) -> Read<UnitQuaternion<f64>> {
             }
             Ok(UnitQuaternion::from_quaternion(quaternion))
         }
-        (None, None, None, Some(rpy)) => {
-            Ok(exp(&(Vector3::z() * rpy.z)) * exp(&(Vector3::y() * rpy.y)) * exp(&(Vector3::x() * rpy.x)))
-        }
+        (None, None, None, Some(rpy)) => Ok(roll_pitch_yaw(&rpy)),
         (Some(_), None, None, None) => Err(table.missing_key("angle")),
         (None, Some(_), None, None) => Err(table.missing_key("axis")),
         (None, None, None, None) => Err(table

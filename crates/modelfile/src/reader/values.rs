@@ -5,7 +5,7 @@ use crate::context::{Doubt, Read, Reported};
 use crate::format::{Key, Named, Shape};
 use crate::tree::{Node, Value};
 use flexura_expression::{Dimension, Function, Kind, Quantity, nearest};
-use flexura_model::{At, BodyId, Mount, Profile, Rule};
+use flexura_model::{At, BodyId, Mount, Profile, Rule, direction_of};
 use flexura_spatial::Vector3;
 use std::f64::consts::TAU;
 
@@ -165,16 +165,9 @@ impl<'c> Reader<'c, '_> {
         if let Some(formulas) = self.context.rules.join_list(&path, vector.into()) {
             self.context.rules.put(path, Rule::Direction(formulas));
         }
-        // Scaled first, so that neither tiny nor huge components are lost in the squares.
-        let scale = vector.amax();
-        if scale == 0.0 {
-            return Err(self.wrong_at(
-                name,
-                "a direction must not be zero",
-                format!("for example `{name} = [1, 0, 0]`"),
-            ));
-        }
-        Ok(Some((vector / scale).normalize()))
+        direction_of(&vector).map(Some).ok_or_else(|| {
+            self.wrong_at(name, "a direction must not be zero", format!("for example `{name} = [1, 0, 0]`"))
+        })
     }
 
     pub(crate) fn text(&self, name: &str) -> Read<Option<&'c str>> {

@@ -20,7 +20,8 @@ use tree::{Table, Value};
 /// The model as the text of a file.
 ///
 /// # Errors
-/// What no file can say, as only code can write it: quantities along a beam that are tables of their own.
+/// What no file can say, as only code can write it: quantities along a beam that are tables of their own, formulas without
+/// words. A model that is not sound.
 pub fn to_toml(model: &Model) -> Result<String, Issue> {
     let writer = Writer::new(model);
     let mut file = Table::default();
@@ -35,7 +36,32 @@ pub fn to_toml(model: &Model) -> Result<String, Issue> {
     writer.things(&mut text)?;
     writer.results(&mut text);
     writer.studies(&mut text);
+    prove(model, &text)?;
     Ok(text)
+}
+
+/// Expressions that were made in code may have no words: the text must read back, and its outputs ask for the same.
+fn prove(model: &Model, text: &str) -> Result<(), Issue> {
+    let again = crate::Document::parse(text, "model.toml").and_then(|document| document.model(&[]));
+    let again = again.map_err(|report| {
+        let first = report.problems().first();
+        Issue {
+            path: first.map_or_else(String::new, |problem| problem.path.clone()),
+            message: format!(
+                "as a file it makes no sense: {}",
+                first.map_or("", |problem| problem.message.as_str())
+            ),
+            hint: first.and_then(|problem| problem.hint.clone()),
+        }
+    })?;
+    match model.outputs.iter().zip(&again.outputs).find(|(own, read)| own.probes != read.probes) {
+        None => Ok(()),
+        Some((own, _)) => Err(Issue {
+            path: format!("output.{}", own.name),
+            message: "the text of its formula does not say what it reads off".to_string(),
+            hint: Some("make it of a text by the reader, or of a single slot".to_string()),
+        }),
+    }
 }
 
 struct Writer<'m> {

@@ -58,6 +58,9 @@ impl Writer<'_> {
     fn probe(&self, probe: &Probe, is_vector: bool) -> Option<String> {
         let model = self.model;
         let place = match probe.target {
+            ProbeTarget::Beam(beam, _) if probe.quantity == Quantity::FoundationForce => {
+                format!("beam.{}", quoted(&model[beam].name))
+            }
             ProbeTarget::Beam(beam, at) => {
                 let at = match at {
                     At::Fraction(fraction) => format!("{fraction:?}"),
