@@ -7,6 +7,7 @@ use crate::{files, page, screen};
 use flexura::model::{Model, visible};
 use flexura::modelfile::{Document, Report};
 use flexura::output::kept_pictures;
+use flexura::remake;
 use flexura::report;
 use std::fs;
 use std::path::Path;
@@ -60,13 +61,14 @@ fn model_of(text: &str, values: &[(String, f64)]) -> Result<Model, String> {
         format!("its model file is refused: {message}")
     };
     let file = Document::parse(text, "the model file in the result").map_err(wrong)?;
-    let units = file.model(&[]).map_err(wrong)?.parameters;
-    let typed = values.iter().filter_map(|(name, value)| {
-        let unit = &units.iter().find(|parameter| parameter.name == *name)?.unit;
-        // The shortest text that reads back as the same number.
-        Some((name.clone(), format!("{value:e} {unit}")))
-    });
-    file.model(&typed.collect::<Vec<_>>()).map_err(wrong)
+    let model = file.model(&[]).map_err(wrong)?;
+    let known = values.iter().filter_map(|(name, value)| Some((model.parameter(name)?, *value)));
+    let values: Vec<(usize, f64)> = known.collect();
+    // What decides of which parts the mechanism is made is read again.
+    match model.at(&values) {
+        Ok(model) => Ok(model),
+        Err(_) => remake(&file, &[], &model)(&values),
+    }
 }
 
 fn read(path: &Path) -> Result<String, Failure> {
