@@ -175,9 +175,10 @@ pub use flexura_report as report;
 pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;
 pub use flexura_study::{
-    Census, Equilibrium, Family, Interrupt, ModelFamily, MotionProgress, Options, Outcome, Prepared,
-    ProblemError, Progress, SensitivityError, TraceProgress, buckle, buckle_family, check, equilibria,
-    inverse_dynamics, inverse_dynamics_family, solve, solve_family, solve_model, trace, trace_family,
+    Census, Equilibrium, Evaluation, Evaluator, Family, Interrupt, ModelFamily, MotionProgress, Options,
+    Outcome, Prepared, ProblemError, Progress, SensitivityError, TraceProgress, buckle, buckle_family, check,
+    equilibria, inverse_dynamics, inverse_dynamics_family, solve, solve_family, solve_model, trace,
+    trace_family,
 };
 pub use solve_file::{Error, Solved, solve_file};
 pub use trace_file::{Buckled, Traced, buckle_file, study_named, trace_file};

@@ -1,6 +1,7 @@
 //! What can be done with a model. Each study returns a `Solution`.
 
 mod ending;
+mod evaluate;
 mod family;
 mod inverse;
 mod motion;
@@ -13,6 +14,7 @@ mod trace;
 mod way;
 
 pub use ending::Ending;
+pub use evaluate::{Evaluation, Evaluator};
 pub use family::{Family, ModelFamily};
 pub use flexura_equilibrium::{Census, Equilibrium, Interrupt, ProblemError};
 pub use motion::{MotionProgress, inverse_dynamics, inverse_dynamics_family};
