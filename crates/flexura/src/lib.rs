@@ -165,6 +165,9 @@ pub use stepper::Stepper;
 pub use sweep::{Axis, Remake, Sample, SampleStatus, Sweep, remake};
 
 pub use flexura_expression as expression;
+/// Parameters from measurements, and formulas that repeat an answer.
+pub use flexura_fitting as fitting;
+pub use flexura_fitting::{fit, formula};
 pub use flexura_geometry as geometry;
 pub use flexura_model as model;
 pub use flexura_modelfile as modelfile;

@@ -11,6 +11,7 @@ mod binding;
 mod body;
 mod cable;
 mod contact;
+mod fit;
 mod foundation;
 mod inverse;
 mod joint;
@@ -33,6 +34,10 @@ pub use cable::{Cable, CableLaw, Guide};
 pub use contact::{
     Boundary, BoundaryCurve, Contact, RevolutionProfile, Rolling, RollingCoordinate, Side, Slide, Surface,
     SurfaceMotion, Surfaces,
+};
+pub use fit::{
+    FitLoss, FitStudy, FitUnknown, FormulaFactor, FormulaPiece, FormulaQuantity, FormulaSource, FormulaStudy,
+    FormulaTerm, FormulaUnit, FormulaVariable, MeasuredRow, Measurements,
 };
 pub use foundation::{Foundation, FoundationLaw};
 pub use inverse::{Target, Unknown};

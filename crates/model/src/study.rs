@@ -1,6 +1,6 @@
 //! What is to be done with a mechanism: the studies that stand in its file.
 
-use crate::{InverseDynamicsStudy, Target};
+use crate::{FitStudy, FormulaStudy, InverseDynamicsStudy, Target};
 
 /// A named study.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +22,10 @@ pub enum StudyKind {
     Buckle(BuckleStudy),
     /// Velocities, accelerations and forces of a motion in time.
     InverseDynamics(InverseDynamicsStudy),
+    /// Parameters from measurements.
+    Fit(FitStudy),
+    /// A formula that repeats an output.
+    Formula(FormulaStudy),
 }
 
 impl StudyKind {
@@ -32,6 +36,8 @@ impl StudyKind {
             StudyKind::Trace(_) => "trace",
             StudyKind::Buckle(_) => "buckle",
             StudyKind::InverseDynamics(_) => "inverse_dynamics",
+            StudyKind::Fit(_) => "fit",
+            StudyKind::Formula(_) => "formula",
         }
     }
 }

@@ -243,7 +243,7 @@ impl<'c, 'a> Reader<'c, 'a> {
     /// A table within this one.
     pub(crate) fn table(&self, name: &str) -> Read<Option<Reader<'c, 'a>>> {
         let Some((entry, key)) = self.entry(name) else { return Ok(None) };
-        let Shape::Table(table) = key.shape else { return Err(Reported) };
+        let (Shape::Table(table) | Shape::Data(table)) = key.shape else { return Err(Reported) };
         Reader::open(self.context, entry, table, &self.key_path(name)).map(Some)
     }
 

@@ -4,12 +4,17 @@
 //! unless said otherwise. `F` and `M` act, by the part beyond s, on the part before s.
 
 mod contact;
+mod fit;
 mod motion;
 mod trace;
 mod warnings;
 mod words;
 
 pub use contact::ContactSolution;
+pub use fit::{
+    Estimate, Fit, FitWork, FittedRow, MeasuredFit, ResponseFormula, ResponsePiece, ResponsePoint,
+    SpecimenFit, Spread, Unseen,
+};
 pub use motion::{BodyMotion, Instant, InverseDynamics, JointMotion, MotionWork, Rates};
 pub use trace::{
     Branch, BranchEnd, BranchOrigin, Buckling, BucklingMode, CriticalCurve, Crossing, Direction, PointKind,

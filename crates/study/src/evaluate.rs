@@ -7,6 +7,7 @@ use crate::family::ModelFamily;
 use crate::{Outcome, Prepared};
 use flexura_equilibrium::{Interrupt, ProblemError};
 use flexura_model::{Issue, Model};
+use flexura_nonlinear::System;
 use flexura_solution::{Solution, Status};
 
 /// What an equilibrium says of the outputs.
@@ -74,6 +75,11 @@ impl Evaluator {
     /// The parameters by which there are derivatives.
     pub fn parameters(&self) -> &[usize] {
         &self.parameters
+    }
+
+    /// Unknowns of its equations.
+    pub fn unknowns(&self) -> usize {
+        self.prepared.problem.unknowns()
     }
 
     /// The model as it was led last, with the values found for its unknown parameters.

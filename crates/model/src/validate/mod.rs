@@ -6,6 +6,7 @@ use std::fmt::Display;
 
 mod beam;
 mod doubts;
+mod fit;
 mod foundation;
 mod joint;
 mod load;

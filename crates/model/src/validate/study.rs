@@ -25,6 +25,11 @@ impl Model {
                 self.check_forward(&path, "moved in time", &mut issues);
                 self.check_motion(motion, &path, &mut issues);
             }
+            StudyKind::Fit(fit) => self.check_fit(fit, &path, &mut issues),
+            StudyKind::Formula(formula) => {
+                self.check_forward(&path, "repeated by a formula", &mut issues);
+                self.check_formula(formula, &path, &mut issues);
+            }
         }
         issues.0
     }

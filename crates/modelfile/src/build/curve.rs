@@ -216,7 +216,7 @@ pub(super) fn from_file<const N: usize>(
             }
         },
     };
-    let text = read(reader, file)?;
+    let text = read(reader, "file", file)?;
     let wrong = |line: usize, message: String| {
         let hint = format!(
             "each line holds {} numbers {}, divided by commas; the first may name the columns",
@@ -285,11 +285,12 @@ pub(super) fn from_file<const N: usize>(
     Ok(points)
 }
 
-fn read(reader: &Reader<'_, '_>, file: &str) -> Read<String> {
+/// The text of a file beside the model file, which the key at hand names.
+pub(super) fn read(reader: &Reader<'_, '_>, key: &str, file: &str) -> Read<String> {
     let path = reader.context.folder.join(file);
     let cannot = |why: String| {
         let hint = "the path is relative to the folder of the model file";
-        reader.wrong_at("file", format!("cannot read `{file}`: {why}"), hint)
+        reader.wrong_at(key, format!("cannot read `{file}`: {why}"), hint)
     };
     let reason = crate::file::reason;
     let metadata = std::fs::metadata(&path).map_err(|error| cannot(reason(&error)))?;

@@ -6,10 +6,13 @@ mod cable;
 mod contact;
 mod coupling;
 mod curve;
+mod fit;
+mod formula;
 mod foundation;
 mod joint;
 mod load;
 mod material;
+mod measurements;
 mod motion;
 mod place;
 mod result;
@@ -90,6 +93,8 @@ pub(crate) fn model(context: &Context<'_>) -> Option<Model> {
     if context.any_problem() {
         return None;
     }
+    // Before the checks, which ask what depends on what.
+    context.rules.hand_over(&mut model);
     for issue in model.validate() {
         if context.is_full() {
             break;
@@ -105,7 +110,6 @@ pub(crate) fn model(context: &Context<'_>) -> Option<Model> {
     if context.any_problem() {
         return None;
     }
-    context.rules.hand_over(&mut model);
     Some(model)
 }
 

@@ -1,7 +1,7 @@
 //! Studies: what is to be done with the mechanism.
 
 use super::result::{Built, event, live_outputs, stop};
-use super::{motion, name, named_entries, table_of};
+use super::{fit, formula, motion, name, named_entries, table_of};
 use crate::context::{Context, Needed, Read, Reported, suggest};
 use crate::reader::Reader;
 use crate::tree::{Entry, Node, Value};
@@ -18,20 +18,35 @@ pub(super) fn studies(context: &Context<'_>, model: &Model, outputs: &[Built]) -
         return Vec::new();
     }
     let outputs = live_outputs(context, model, outputs);
-    let read = |entry: &Entry| {
+    let mut studies = Vec::new();
+    for entry in entries {
         name(context, "study", entry);
-        study(context, entry, model, &outputs).ok()
-    };
-    entries.iter().filter_map(read).collect()
+        studies.extend(study(context, entry, model, &outputs, &studies).ok());
+    }
+    studies
 }
 
-fn study(context: &Context<'_>, entry: &Entry, model: &Model, outputs: &[Built]) -> Read<Study> {
+fn study(
+    context: &Context<'_>,
+    entry: &Entry,
+    model: &Model,
+    outputs: &[Built],
+    before: &[Study],
+) -> Read<Study> {
     let path = format!("study.{}", entry.key);
     let reader = Reader::open(context, entry, table_of("study").ok_or(Reported)?, &path)?;
     let kind = match reader.variant {
         "trace" => StudyKind::Trace(trace(&reader, model, outputs)?),
         "buckle" => StudyKind::Buckle(buckle(&reader, model)?),
         "inverse_dynamics" => StudyKind::InverseDynamics(motion::inverse_dynamics(&reader, model)?),
+        "fit" => StudyKind::Fit(fit::fit(&reader, model, outputs)?),
+        "formula" => {
+            let traces: Vec<(&str, bool)> = before
+                .iter()
+                .map(|study| (study.name.as_str(), matches!(study.kind, StudyKind::Trace(_))))
+                .collect();
+            StudyKind::Formula(formula::formula(&reader, model, outputs, &traces)?)
+        }
         _ => StudyKind::Solve,
     };
     Ok(Study { name: entry.key.clone(), kind })

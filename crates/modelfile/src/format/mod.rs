@@ -5,6 +5,7 @@
 
 mod attachments;
 mod contacts;
+mod fit;
 mod foundation;
 mod joints;
 mod motion;
@@ -169,6 +170,16 @@ pub(crate) enum Shape {
     AnyNumber,
     /// Two such numbers.
     AnyRange,
+    /// Such numbers by the names of what they are of.
+    NamedValues,
+    /// Two such numbers each.
+    NamedRanges,
+    /// Two such numbers and how many.
+    NamedGrids,
+    /// The name of a file of measurements, or the table itself.
+    Data(&'static Table),
+    /// Rows of numbers or texts.
+    Rows,
     /// Two numbers, each of the dimension of something else.
     AnyPair,
     /// Such a number per second.
@@ -204,6 +215,7 @@ impl Shape {
             | Shape::Tables(table)
             | Shape::Placed(table)
             | Shape::NamedTables(table)
+            | Shape::Data(table)
             | Shape::Unknowns(table) => Some(table),
             _ => None,
         }
@@ -266,6 +278,11 @@ impl Shape {
             Shape::Texts => "a text, or a list of texts".into(),
             Shape::AnyNumber => "a number of the parameter's dimension".into(),
             Shape::AnyRange => "two numbers of the parameter's dimension".into(),
+            Shape::NamedValues => "numbers by names".into(),
+            Shape::NamedRanges => "two numbers each, by names".into(),
+            Shape::NamedGrids => "from, to and how many, by names".into(),
+            Shape::Data(_) => "the name of a CSV file, or a table".into(),
+            Shape::Rows => "a list of rows, each a list of numbers or texts".into(),
             Shape::AnyPair => "two numbers, each of its curve's dimension".into(),
             Shape::AnyRate => "a number of the parameter's dimension per second".into(),
             Shape::AnyFunction => "an expression of t of the parameter's dimension".into(),

@@ -1,5 +1,6 @@
 //! The tables of studies.
 
+use super::fit::{FIT, FORMULA};
 use super::motion::MOTION;
 use super::tables::{key, table, variant};
 use super::{Need, Shape, Table, Variants};
@@ -116,6 +117,16 @@ pub(crate) static STUDY: Table = Table {
                 "inverse_dynamics",
                 "A motion in time through one parameter that drives a rigid mechanism: velocities, accelerations, and the forces and efforts that it takes.",
                 &MOTION,
+            ),
+            variant(
+                "fit",
+                "Unknown parameters from measurements: estimates with their intervals, correlations, and what the data do not tell.",
+                &FIT,
+            ),
+            variant(
+                "formula",
+                "A polynomial that repeats an output over a trace or a grid, for the controller of a robot; `flexura formula` writes it as TOML, CSV, C or Rust.",
+                &FORMULA,
             ),
         ],
     }),

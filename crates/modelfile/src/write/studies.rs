@@ -16,12 +16,14 @@ impl Writer<'_> {
                 StudyKind::Trace(trace) => self.trace(trace, &mut table),
                 StudyKind::Buckle(buckle) => self.buckle(buckle, &mut table),
                 StudyKind::InverseDynamics(motion) => self.motion(motion, &mut table),
+                StudyKind::Fit(fit) => self.fit(fit, &mut table),
+                StudyKind::Formula(formula) => self.formula(formula, &mut table),
             }
             text.push_str(&table.section("study", &study.name));
         }
     }
 
-    fn parameter(&self, position: usize) -> Value {
+    pub(super) fn parameter(&self, position: usize) -> Value {
         Value::text(self.names.get(position).copied().unwrap_or_default())
     }
 
