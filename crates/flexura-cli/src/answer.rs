@@ -11,7 +11,8 @@ use flexura::Options;
 use flexura::model::{Model, visible};
 use flexura::modelfile::Document;
 use flexura::output::{
-    self, BucklingDocument, InverseDynamicsDocument, SceneDocument, TraceDocument, to_json,
+    self, BucklingDocument, FitDocument, FormulaDocument, InverseDynamicsDocument, SceneDocument, TraceDocument,
+    to_json,
 };
 use flexura::post::PostError;
 use serde::Serialize;
@@ -53,6 +54,16 @@ impl Task {
             options.shapes = SHAPE;
         }
         Ok(Self { file, model, options, folder, shown, is_json, is_quiet })
+    }
+
+    /// Refuses a page of a study that has no states of the mechanism.
+    pub fn without_page(&self) -> Result<(), Failure> {
+        match self.shown.wants_page() {
+            true => Err(Failure::Input(
+                "this study has no states of the mechanism for a page; write its picture: --svg FILE".to_owned(),
+            )),
+            false => Ok(()),
+        }
     }
 
     /// Will anybody read the result document?
@@ -116,9 +127,12 @@ impl Task {
     /// Writes the files of an answer; the text of the document, if there is a folder.
     pub fn write(&self, answer: &mut Answer, folder: Option<&Path>) -> Result<Option<String>, Failure> {
         let (Some(folder), Some(document)) = (folder, &answer.document) else { return Ok(None) };
-        let names = answer.files.iter().map(|(name, _)| *name).chain([page::NAME]).collect();
+        let page = document.has_page().then_some(page::NAME);
+        let names = answer.files.iter().map(|(name, _)| *name).chain(page).collect();
         let text = json(&Written { document, files: names })?;
-        answer.files.push((page::NAME, self.shown.page_of(&text)?));
+        if let Some(name) = page {
+            answer.files.push((name, self.shown.page_of(&text)?));
+        }
         files::replace_all(folder, &text, &answer.files)?;
         answer.growing.take().into_iter().for_each(Growing::finish);
         Ok(Some(text))
@@ -170,6 +184,8 @@ pub enum StudyDocument {
     Trace(Box<TraceDocument>),
     Buckling(Box<BucklingDocument>),
     InverseDynamics(Box<InverseDynamicsDocument>),
+    Fit(Box<FitDocument>),
+    Formula(Box<FormulaDocument>),
 }
 
 /// A document on the disk knows which files stand beside it.
@@ -181,6 +197,11 @@ struct Written<'a> {
 }
 
 impl StudyDocument {
+    /// Has it states of the mechanism, which a page can show?
+    pub fn has_page(&self) -> bool {
+        !matches!(self, StudyDocument::Fit(_) | StudyDocument::Formula(_))
+    }
+
     /// What there is to draw.
     fn scene(&mut self) -> Option<&mut SceneDocument> {
         match self {
@@ -188,6 +209,7 @@ impl StudyDocument {
             StudyDocument::Trace(document) => document.scene.as_mut(),
             StudyDocument::Buckling(document) => Some(&mut document.scene),
             StudyDocument::InverseDynamics(document) => document.scene.as_mut(),
+            StudyDocument::Fit(_) | StudyDocument::Formula(_) => None,
         }
     }
 }

@@ -24,6 +24,10 @@ pub enum Command {
     Trace(TraceArguments),
     /// Find critical loads and the shapes in which the mechanism buckles
     Buckle(BuckleArguments),
+    /// Find unknown parameters from measurements, with their intervals and what the data do not tell
+    Fit(FitArguments),
+    /// Find the formula of a study that repeats an output, and write it for a controller
+    Formula(FormulaArguments),
     /// Do the studies that are written in the file
     Run(RunArguments),
     /// Solve over a grid of parameters, on all cores, into one table
@@ -171,6 +175,72 @@ pub struct BuckleArguments {
     #[arg(long, short = 'o', value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
+}
+
+#[derive(Args)]
+pub struct FitArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// The study [default: what the flags say, or the first fit of the file]
+    pub study: Option<String>,
+    /// The measurements (CSV): columns bear the names of parameters, which are set for the row, and of outputs, which were
+    /// measured, with their units: `pull [N], tip [mm]`; `specimen` and `weight` may stand beside them
+    #[arg(long, value_name = "FILE")]
+    pub data: Option<PathBuf>,
+    /// A parameter to be found; may be repeated
+    #[arg(long, value_name = "P")]
+    pub unknown: Vec<String>,
+    /// A parameter to be found for each specimen; may be repeated
+    #[arg(long, value_name = "P")]
+    pub per_specimen: Vec<String>,
+    /// Values between which a parameter is looked for, e.g. --bounds young="1 GPa:10 GPa"; may be repeated
+    #[arg(long, value_name = "P=A:B")]
+    pub bounds: Vec<String>,
+    /// Standard deviation of a measured output, e.g. --noise tip="0.1 mm"; may be repeated
+    #[arg(long, value_name = "O=V")]
+    pub noise: Vec<String>,
+    /// What a residual costs: squares, huber, soft_l1 or cauchy [default: squares]
+    #[arg(long, value_name = "L")]
+    pub loss: Option<String>,
+    /// What intervals are found by: linear, or profile besides [default: linear]
+    #[arg(long, value_name = "I")]
+    pub intervals: Option<String>,
+    /// Probability that an interval holds the true value [default: 0.95]
+    #[arg(long, value_name = "C")]
+    pub confidence: Option<String>,
+    /// Leave out specimens that lie outside what the others predict
+    #[arg(long)]
+    pub reject: bool,
+    /// Write the model with the estimates as its parameters
+    #[arg(long, value_name = "FILE")]
+    pub write: Option<PathBuf>,
+    /// Write result.json, residuals.csv, fit.svg and fitted.toml into this folder
+    #[arg(long, short = 'o', value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Wanted accuracy of each equilibrium, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
+}
+
+#[derive(Args)]
+pub struct FormulaArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// The study [default: the first formula of the file]
+    pub study: Option<String>,
+    /// Write the formula: as .toml, .csv, .h (C) or .rs (Rust); may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub write: Vec<PathBuf>,
+    /// Write result.json, points.csv, formula.svg and the formula as .toml, .h and .rs into this folder
+    #[arg(long, short = 'o', value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Wanted accuracy of each equilibrium, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     #[command(flatten)]

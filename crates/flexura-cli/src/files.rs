@@ -10,7 +10,7 @@ use std::io::{Error, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// Names of all files that a study may write into its folder.
-const NAMES: [&str; 12] = [
+const NAMES: [&str; 20] = [
     RESULT,
     "beams.csv",
     "model.vtp",
@@ -22,6 +22,14 @@ const NAMES: [&str; 12] = [
     "modes.csv",
     "motion.csv",
     "motion.svg",
+    "residuals.csv",
+    "fit.svg",
+    "fitted.toml",
+    "points.csv",
+    "formula.svg",
+    "formula.toml",
+    "formula.h",
+    "formula.rs",
     "report.html",
 ];
 

@@ -10,6 +10,8 @@ mod commands;
 mod derivatives;
 mod failure;
 mod files;
+mod fit_summary;
+mod formula_summary;
 mod interrupt;
 mod motion_summary;
 mod page;
@@ -41,6 +43,8 @@ fn main() -> ExitCode {
         Command::Solve(arguments) => commands::solve::run(&arguments),
         Command::Trace(arguments) => commands::trace::run(&arguments),
         Command::Buckle(arguments) => commands::buckle::run(&arguments),
+        Command::Fit(arguments) => commands::fit::run(&arguments),
+        Command::Formula(arguments) => commands::formula::run(&arguments),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),

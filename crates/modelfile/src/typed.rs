@@ -119,6 +119,16 @@ impl Words {
                         span: value.span.clone(),
                     }
                 }
+                (Some(value), "bounds") => {
+                    let hint = "write a parameter and both ends: --bounds young=\"1 GPa:10 GPa\"";
+                    let (name, values) = equation(value, hint)?;
+                    named(name, range(&values, hint)?)
+                }
+                (Some(value), "noise") => {
+                    let hint = "write an output and its standard deviation: --noise tip=\"0.1 mm\"";
+                    let (name, deviation) = equation(value, hint)?;
+                    named(name, deviation)
+                }
                 (Some(value), _) => value.clone(),
             };
             if word.flag == "critical-number" {
@@ -131,8 +141,13 @@ impl Words {
             let key = word.flag.replace('-', "_");
             match entries.iter_mut().find(|entry| entry.key == key) {
                 Some(Entry { node: Node { value: Value::List(list), .. }, .. }) => list.push(node),
+                Some(Entry { node: Node { value: Value::Table(table), .. }, .. }) => {
+                    if let Value::Table(more) = node.value {
+                        table.extend(more);
+                    }
+                }
                 // A flag that may be repeated makes a list from the first one on.
-                _ if matches!(word.flag, "event" | "stop") => {
+                _ if matches!(word.flag, "event" | "stop" | "unknown" | "per-specimen") => {
                     let list = Node { span: node.span.clone(), value: Value::List(vec![node]) };
                     entries.push(Entry { key, key_span: word.flag_span.clone(), node: list });
                 }
@@ -149,6 +164,16 @@ impl Words {
 
 fn entry(key: &str, node: Node) -> Entry {
     Entry { key: key.to_string(), key_span: node.span.clone(), node }
+}
+
+/// A table of one entry, whose name was typed.
+fn named(name: Node, node: Node) -> Node {
+    let (key, key_span) = match name.value {
+        Value::Text(text) => (text, name.span.clone()),
+        _ => (String::new(), name.span.clone()),
+    };
+    let span = name.span.start..node.span.end;
+    Node { value: Value::Table(vec![Entry { key, key_span, node }]), span }
 }
 
 /// `A:B` as a list.

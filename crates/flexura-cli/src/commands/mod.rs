@@ -5,6 +5,8 @@ pub mod check;
 pub mod completions;
 mod earlier;
 pub mod examples;
+pub mod fit;
+pub mod formula;
 pub mod motion;
 pub mod run;
 pub mod schema;

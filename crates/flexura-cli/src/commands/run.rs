@@ -1,6 +1,6 @@
 //! `flexura run FILE [STUDY]`
 
-use super::{buckle, file_failure, motion, solve, trace, warn_about, warn_of_outputs};
+use super::{buckle, file_failure, fit, formula, motion, solve, trace, warn_about, warn_of_outputs};
 use crate::answer::{Answer, StudyDocument, Task, json};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
@@ -49,27 +49,22 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         failed.extend(failure.map(|failure| (study.name.as_str(), failure)));
         documents.extend(answer.document.map(|document| (study.name.clone(), document)));
     }
-    let mut text = None;
-    if task.is_json || task.shown.wants_page() {
-        text = Some(match (&arguments.study, documents.pop()) {
-            (Some(_), Some((_, only))) => json(&only)?,
-            (_, last) => {
-                documents.extend(last);
-                json(&RunDocument {
-                    flexura: env!("CARGO_PKG_VERSION"),
-                    model: &task.model.name,
-                    study: "run",
-                    status: match () {
-                        () if task.options.interrupt.is_raised() => "interrupted",
-                        () if failed.is_empty() => "converged",
-                        () => "incomplete",
-                    },
-                    studies: Named(documents),
-                })?
-            }
-        });
+    let status = match () {
+        () if task.options.interrupt.is_raised() => "interrupted",
+        () if failed.is_empty() => "converged",
+        () => "incomplete",
+    };
+    let is_one = arguments.study.is_some();
+    let text = task.is_json.then(|| text_of(&task, documents.iter(), is_one, status)).transpose()?;
+    let mut page = None;
+    if task.shown.wants_page() {
+        let shown = documents.iter().filter(|(_, document)| document.has_page());
+        if shown.clone().next().is_none() && !documents.is_empty() {
+            task.without_page()?;
+        }
+        page = Some(text_of(&task, shown, is_one, status)?);
     }
-    task.shown.write(text.as_deref(), &pictures)?;
+    task.shown.write(page.as_deref(), &pictures)?;
     if let (Some(text), true) = (&text, task.is_json) {
         screen::print_table(text)?;
     }
@@ -77,6 +72,25 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         task.shown.tell();
     }
     end(failed, studies.len())
+}
+
+/// One study's document by itself, or all of them in one.
+fn text_of<'d>(
+    task: &Task,
+    mut documents: impl Iterator<Item = &'d (String, StudyDocument)>,
+    is_one: bool,
+    status: &'static str,
+) -> Result<String, Failure> {
+    if is_one && let Some((_, only)) = documents.next() {
+        return json(only);
+    }
+    json(&RunDocument {
+        flexura: env!("CARGO_PKG_VERSION"),
+        model: &task.model.name,
+        study: "run",
+        status,
+        studies: Named(documents.map(|(name, document)| (name.clone(), document)).collect()),
+    })
 }
 
 /// The study of that name, or all of them.
@@ -102,6 +116,8 @@ fn answer(task: &Task, study: &Study, folder: Option<&Path>) -> Result<Answer, F
         StudyKind::Trace(trace) => trace::study(task, &study.name, trace, folder),
         StudyKind::Buckle(buckle) => buckle::study(task, &study.name, buckle),
         StudyKind::InverseDynamics(motion) => motion::study(task, &study.name, motion),
+        StudyKind::Fit(fit) => fit::study(task, &study.name, fit),
+        StudyKind::Formula(formula) => formula::study(task, &study.name, formula),
     }
 }
 
@@ -131,5 +147,5 @@ struct RunDocument<'a> {
     model: &'a str,
     study: &'static str,
     status: &'static str,
-    studies: Named<StudyDocument>,
+    studies: Named<&'a StudyDocument>,
 }

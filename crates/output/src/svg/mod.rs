@@ -14,6 +14,7 @@ mod axis;
 mod canvas;
 mod curve;
 mod diagram;
+mod fitted;
 mod gradient;
 mod history;
 mod layout;
@@ -26,6 +27,7 @@ mod shapes;
 mod stack;
 
 pub use diagram::diagram_svg;
+pub use fitted::{fit_svg, formula_svg};
 pub use history::motion_svg;
 pub use samples::{SampleColumn, SweepView, sweep_svg};
 pub use shapes::{modes_svg, shapes_svg};
