@@ -21,6 +21,7 @@ from . import errors
 from ._native import __version__, schema
 from ._references import Formula, Handle, clamp, hold, pin, place, prismatic, revolute
 from .errors import ConvergenceError, FlexuraError, ModelError, Problem, StudyError
+from .fitting import Fit, ResponseFormula
 from .model import Check, Model, Quantity, load, loads
 from .records import Named, Record
 from .result import Beam, Body, Page, Result
@@ -36,6 +37,7 @@ __all__ = [
     "Check",
     "ConvergenceError",
     "Explanation",
+    "Fit",
     "FlexuraError",
     "Formula",
     "Handle",
@@ -48,6 +50,7 @@ __all__ = [
     "Problem",
     "Quantity",
     "Record",
+    "ResponseFormula",
     "Result",
     "Step",
     "Stepper",

@@ -17,7 +17,8 @@ from . import _native, _values
 from ._references import Handle, text_of
 from .errors import ConvergenceError, ModelError, StudyError
 from .result import Result
-from .studies import Buckling, Motion, Path
+from .fitting import Fit, ResponseFormula
+from .studies import Buckling, Motion, Path, Study
 
 if TYPE_CHECKING:
     from ._tables import Tables
@@ -76,6 +77,14 @@ def _named_tables() -> Mapping[str, bool]:
             if isinstance(inner, dict):
                 tables[key] = "properties" in inner or "oneOf" in inner
     return tables
+
+_KINDS: dict[str, type[Study]] = {
+    "trace": Path,
+    "buckle": Buckling,
+    "inverse_dynamics": Motion,
+    "fit": Fit,
+    "formula": ResponseFormula,
+}
 
 
 class Model(Tables):
@@ -357,7 +366,7 @@ class Model(Tables):
         tolerance: float = 1e-8,
         check: bool = True,
         **values: Any,
-    ) -> Result | Path | Buckling | Motion:
+    ) -> Result | Study:
         """A study: of the file, by its name, or given as its table with ``kind`` and its keys.
 
         Raises:
@@ -370,12 +379,11 @@ class Model(Tables):
             raise StudyError.at(f"study.{name}", f"there is no study `{name}`", hint=f"the model has {known}")
         native = model._mechanism.run(name, model._all(parameters, values), tolerance, _SHAPES)
         given = self.with_values(parameters, **values)
-        result: Result | Path | Buckling | Motion
+        result: Result | Study
         if native.solved is not None:
             result = Result(given, native.solved)
         else:
-            kinds: dict[str, type[Path | Buckling | Motion]] = {"trace": Path, "buckle": Buckling, "inverse_dynamics": Motion}
-            result = kinds[native.kind](given, native)
+            result = _KINDS[native.kind](given, native)
         if check and native.status != "converged":
             raise ConvergenceError(f"{name}: {native.status}: {native.reason}", result)
         return result
@@ -445,6 +453,54 @@ class Model(Tables):
         study = {"kind": "inverse_dynamics", "parameter": str(parameter), **keys}
         found = self.run(study, parameters, tolerance=tolerance, check=check)
         assert isinstance(found, Motion)
+        return found
+
+    def fit(
+        self,
+        data: Any,
+        unknown: Any = (),
+        /,
+        *,
+        parameters: Mapping[str, Any] | None = None,
+        tolerance: float = 1e-8,
+        check: bool = True,
+        **keys: Any,
+    ) -> Fit:
+        """Unknown parameters from measurements: a CSV file, a DataFrame or lists by names of columns such as ``"pull [N]"``.
+
+        Columns bear the names of parameters, which are set for the row, and of outputs, which were measured. Further keywords are
+        keys of a study of the kind ``fit``: ``per_specimen=["young"]``, ``bounds={...}``, ``noise={...}``, ``loss="huber"``,
+        ``intervals="profile"``, ``reject=True``.
+        """
+        from .fitting import measurements
+
+        study = {"kind": "fit", "data": measurements(data), **keys}
+        named = [str(name) for name in ([unknown] if isinstance(unknown, str) or not hasattr(unknown, "__iter__") else unknown)]
+        if named:
+            study["unknown"] = named
+        found = self.run(study, parameters, tolerance=tolerance, check=check)
+        assert isinstance(found, Fit)
+        return found
+
+    def formula(
+        self,
+        output: Any,
+        of: Any,
+        /,
+        *,
+        parameters: Mapping[str, Any] | None = None,
+        tolerance: float = 1e-8,
+        check: bool = True,
+        **keys: Any,
+    ) -> ResponseFormula:
+        """A polynomial that repeats an output over a grid (``vary={"theta": ["-40 deg", "40 deg", 9]}``) or a trace of the model.
+
+        Further keywords are keys of a study of the kind ``formula``: ``degree=3`` or ``terms=[...]``, ``pieces=[...]``, ``range={...}``.
+        """
+        names = [str(name) for name in ([of] if isinstance(of, str) or not hasattr(of, "__iter__") else of)]
+        study = {"kind": "formula", "output": str(output), "of": names, **keys}
+        found = self.run(study, parameters, tolerance=tolerance, check=check)
+        assert isinstance(found, ResponseFormula)
         return found
 
     def stepper(self, inputs: Sequence[Any] = (), outputs: Sequence[Any] = (), *, tolerance: float = 1e-8) -> Stepper:

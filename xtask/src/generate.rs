@@ -31,8 +31,21 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
 ];
 
 /// The commands that the reference page of the command line describes.
-const VERBS: &[&str] =
-    &["", "solve", "trace", "buckle", "run", "sweep", "check", "examples", "view", "schema", "completions"];
+const VERBS: &[&str] = &[
+    "",
+    "solve",
+    "trace",
+    "buckle",
+    "fit",
+    "formula",
+    "run",
+    "sweep",
+    "check",
+    "examples",
+    "view",
+    "schema",
+    "completions",
+];
 
 /// A file and what it should hold.
 type Page = (PathBuf, String);

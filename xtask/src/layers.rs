@@ -10,7 +10,7 @@ const FLOORS: &[&[&str]] = &[
     &["solution", "mechanics"],
     &["modelfile", "equilibrium", "post"],
     &["study"],
-    &["output"],
+    &["output", "fitting"],
     &["report", "raster"],
     &["flexura"],
     &["flexura-cli", "live", "flexura-python", "flexura-c"],
@@ -24,6 +24,7 @@ const NEVER: &[(&str, &[&str])] = &[
     ("post", &["modelfile", "mechanics", "nonlinear", "continuation", "equilibrium", "study"]),
     ("output", &["modelfile", "mechanics", "nonlinear", "continuation", "equilibrium", "study"]),
     ("study", &["modelfile"]),
+    ("fitting", &["modelfile", "mechanics", "equilibrium"]),
 ];
 
 fn floor(room: &str) -> Option<usize> {

@@ -11,8 +11,8 @@ use flexura::Options;
 use flexura::model::{Model, visible};
 use flexura::modelfile::Document;
 use flexura::output::{
-    self, BucklingDocument, FitDocument, FormulaDocument, InverseDynamicsDocument, SceneDocument, TraceDocument,
-    to_json,
+    self, BucklingDocument, FitDocument, FormulaDocument, InverseDynamicsDocument, SceneDocument,
+    TraceDocument, to_json,
 };
 use flexura::post::PostError;
 use serde::Serialize;
@@ -60,7 +60,8 @@ impl Task {
     pub fn without_page(&self) -> Result<(), Failure> {
         match self.shown.wants_page() {
             true => Err(Failure::Input(
-                "this study has no states of the mechanism for a page; write its picture: --svg FILE".to_owned(),
+                "this study has no states of the mechanism for a page; write its picture: --svg FILE"
+                    .to_owned(),
             )),
             false => Ok(()),
         }

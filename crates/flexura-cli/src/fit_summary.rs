@@ -34,9 +34,11 @@ pub fn render(view: &FitView<'_>) -> String {
         if study.profile {
             let unit = &model.parameters[estimate.parameter].unit;
             let end = |end: Option<f64>| end.map_or("beyond".to_owned(), |end| quantity(end, unit, 5));
-            row.push(estimate.profile.map_or("-".to_owned(), |[low, high]| {
-                format!("{} to {}", end(low), end(high))
-            }));
+            row.push(
+                estimate
+                    .profile
+                    .map_or("-".to_owned(), |[low, high]| format!("{} to {}", end(low), end(high))),
+            );
         }
         table.row(row);
     }
@@ -64,8 +66,7 @@ fn cells(view: &FitView<'_>, estimate: &Estimate) -> Vec<String> {
         None => parameter.name.clone(),
     };
     let shown = |value: f64, digits: usize| quantity(value, &parameter.unit, digits);
-    let interval =
-        estimate.interval.map(|[low, high]| format!("{} to {}", shown(low, 5), shown(high, 5)));
+    let interval = estimate.interval.map(|[low, high]| format!("{} to {}", shown(low, 5), shown(high, 5)));
     let unknown = if estimate.is_at_bound { "at its bound" } else { "not determined" };
     vec![
         name,
@@ -91,7 +92,10 @@ fn measured(view: &FitView<'_>) -> String {
     }
     let mut text = format!("\n{}", table.render());
     if view.fit.is_relative && view.fit.scatter.is_finite() {
-        text += &format!("\nthe residuals scatter {} times as much as the given noise\n", number(view.fit.scatter, 3));
+        text += &format!(
+            "\nthe residuals scatter {} times as much as the given noise\n",
+            number(view.fit.scatter, 3)
+        );
     }
     text
 }

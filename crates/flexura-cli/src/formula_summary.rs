@@ -39,7 +39,8 @@ pub fn render(view: &FormulaView<'_>) -> String {
     let r_squared = found.r_squared.map_or(String::new(), |r| format!("R² = {r:.8}, "));
     let names = view.variables();
     let at = found.points.get(found.largest.1).map_or(String::new(), |point| {
-        let places = names.iter().zip(&point.variables).map(|(name, v)| format!("{name} = {}", number(*v, 4)));
+        let places =
+            names.iter().zip(&point.variables).map(|(name, v)| format!("{name} = {}", number(*v, 4)));
         format!(" at {}", places.collect::<Vec<_>>().join(", "))
     });
     text += &format!(

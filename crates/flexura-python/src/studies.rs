@@ -4,8 +4,9 @@ use crate::errors::{Wrong, bug};
 use crate::solved::{Request, Solved};
 use flexura::model::{Model, Study as Described, StudyKind};
 use flexura::output::{
-    TraceView, critical_csv, diagram_svg, modes_csv, modes_svg, motion_csv, motion_document, motion_svg,
-    path_csv, shapes_svg, to_json, trace_document,
+    FitView, FormulaView, TraceView, critical_csv, diagram_svg, fit_csv, fit_document, fit_svg, formula_c,
+    formula_csv, formula_document, formula_rust, formula_svg, formula_toml, modes_csv, modes_svg, motion_csv,
+    motion_document, motion_svg, path_csv, shapes_svg, to_json, trace_document,
 };
 use flexura::solution::Status;
 use flexura::{Buckled, Options, motion_view, solve_model};
@@ -14,7 +15,7 @@ use pyo3::prelude::*;
 /// What a study came to.
 #[pyclass(frozen, module = "flexura._native")]
 pub struct Study {
-    /// `trace`, `buckle`, `inverse_dynamics` or `solve`.
+    /// The word of its kind: `trace`, `fit`.
     #[pyo3(get)]
     kind: String,
     /// How it ended.
@@ -96,6 +97,28 @@ impl Study {
                 let mut files = vec![("motion.svg", motion_svg(&view))];
                 files.extend(motion_csv(&view).map(|table| ("motion.csv", table)));
                 let ended = Self::ended("inverse_dynamics", moved.status, moved.reason.clone());
+                Self { document, files: named(files), ..ended }
+            }
+            StudyKind::Fit(fit) => {
+                let (found, fitted) = flexura::fit(&model, fit, options).map_err(refused)?;
+                let view = FitView { model: &model, study: fit, fit: &found, fitted: &fitted };
+                let document = fit_document(&view).and_then(|document| to_json(&document)).ok();
+                let files = vec![("fit.svg", fit_svg(&view)), ("residuals.csv", fit_csv(&view))];
+                let ended = Self::ended("fit", found.status, found.reason.clone());
+                Self { document, files: named(files), ..ended }
+            }
+            StudyKind::Formula(formula) => {
+                let found = flexura::formula(&model, formula, options, &mut |_| {}).map_err(refused)?;
+                let view = FormulaView { name: &study.name, model: &model, study: formula, formula: &found };
+                let document = formula_document(&view).and_then(|document| to_json(&document)).ok();
+                let files = vec![
+                    ("formula.svg", formula_svg(&view)),
+                    ("formula.toml", formula_toml(&view)),
+                    ("formula.csv", formula_csv(&view)),
+                    ("formula.h", formula_c(&view)),
+                    ("formula.rs", formula_rust(&view)),
+                ];
+                let ended = Self::ended("formula", found.status, found.reason.clone());
                 Self { document, files: named(files), ..ended }
             }
         };

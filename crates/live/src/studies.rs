@@ -23,6 +23,9 @@ impl Session {
             StudyKind::Trace(study) => self.follow(name, &study),
             StudyKind::Buckle(study) => self.buckle(name, &study),
             StudyKind::InverseDynamics(study) => self.travel(name, &study),
+            StudyKind::Fit(_) | StudyKind::Formula(_) => {
+                Err(Trouble::plain(format!("`{name}` has no states to show; `flexura run` does it")))
+            }
         }
     }
 

@@ -27,9 +27,9 @@ pub use csv::{beams_csv, csv_line};
 pub use document::{document, equilibrium_document};
 pub use fitting::{
     EstimateDocument, FitDocument, FitView, FitWorkDocument, FormulaDocument, FormulaPieceDocument,
-    FormulaVariableDocument, FormulaView, LeftOutDocument, MeasuredDocument, SpecimenDocument, SpreadDocument,
-    UnseenDocument, fit_csv, fit_document, formula_c, formula_csv, formula_document, formula_rust, formula_toml,
-    points_csv,
+    FormulaVariableDocument, FormulaView, LeftOutDocument, MeasuredDocument, SpecimenDocument,
+    SpreadDocument, UnseenDocument, fit_csv, fit_document, formula_c, formula_csv, formula_document,
+    formula_rust, formula_toml, points_csv,
 };
 pub use json::{Named, to_json};
 pub use kept::{Make, kept_pictures};
@@ -44,7 +44,8 @@ pub use scene::{
     TubeScene, TubesScene, UnitsDocument, WrapScene, loads, scene, scene_beside,
 };
 pub use svg::{
-    SampleColumn, SweepView, diagram_svg, fit_svg, formula_svg, modes_svg, motion_svg, shape_svg, shapes_svg, stacked, sweep_svg,
+    SampleColumn, SweepView, diagram_svg, fit_svg, formula_svg, modes_svg, motion_svg, shape_svg, shapes_svg,
+    stacked, sweep_svg,
 };
 pub use thin::shape_of;
 pub use trace::{

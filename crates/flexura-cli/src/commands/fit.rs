@@ -98,8 +98,8 @@ pub fn study(task: &Task, name: &str, study: &FitStudy) -> Result<Answer, Failur
 
 fn fitted(task: &Task, name: &str, study: &FitStudy) -> Result<(Answer, Model), Failure> {
     let model = &task.model;
-    let (fit, fitted) = flexura::fit(model, study, &task.options)
-        .map_err(|error| study_failure(&task.file, name, &error))?;
+    let (fit, fitted) =
+        flexura::fit(model, study, &task.options).map_err(|error| study_failure(&task.file, name, &error))?;
     let view = FitView { model, study, fit: &fit, fitted: &fitted };
     let refused = |error: OutputError| unwritable(failure(&fit), &error.to_string());
     let mut document = None;

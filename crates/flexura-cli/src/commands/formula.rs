@@ -8,8 +8,8 @@ use crate::{files, formula_summary, screen};
 use flexura::model::{FormulaStudy, StudyKind, visible};
 use flexura::modelfile::Document;
 use flexura::output::{
-    FormulaView, OutputError, formula_c, formula_csv, formula_document, formula_rust, formula_svg, formula_toml,
-    points_csv,
+    FormulaView, OutputError, formula_c, formula_csv, formula_document, formula_rust, formula_svg,
+    formula_toml, points_csv,
 };
 use flexura::solution::ResponseFormula;
 use flexura::{Error, study_named};

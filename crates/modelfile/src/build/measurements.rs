@@ -256,7 +256,11 @@ fn column(known: &Known<'_>, header: &str) -> Result<Column, (String, String)> {
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
             let message = format!("`{name}` is neither a parameter nor an output of the model");
             let hint = suggest(name, &names, "column");
-            return Err((message, format!("{hint}; take the column out if it is not meant for the fit")));
+            let join = if hint.ends_with('?') { "" } else { ";" };
+            return Err((
+                message,
+                format!("{hint}{join} take the column out if it is not meant for the fit"),
+            ));
         }
     };
     let factor = match (unit_text, dimension) {

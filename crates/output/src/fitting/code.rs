@@ -94,7 +94,8 @@ pub fn formula_c(view: &FormulaView<'_>) -> String {
     for (i, piece) in view.formula.pieces.iter().enumerate() {
         let sum = sum(view, i, &variables, &C);
         if i < last {
-            let _ = writeln!(text, "    if ({} <= {:?})\n        return {sum};", variables[0], piece.range[1]);
+            let _ =
+                writeln!(text, "    if ({} <= {:?})\n        return {sum};", variables[0], piece.range[1]);
         } else {
             let _ = writeln!(text, "    return {sum};");
         }
@@ -235,7 +236,9 @@ fn identifier(name: &str) -> String {
         text.insert(0, '_');
     }
     // Reserved in C or Rust, or functions of both.
-    let reserved = ["in", "as", "if", "do", "for", "int", "let", "mut", "fn", "ref", "use", "mod", "pub", "type", "move"];
+    let reserved = [
+        "in", "as", "if", "do", "for", "int", "let", "mut", "fn", "ref", "use", "mod", "pub", "type", "move",
+    ];
     if reserved.contains(&text.as_str()) {
         text.push('_');
     }

@@ -190,7 +190,9 @@ pub fn fit_document(view: &FitView<'_>) -> Result<FitDocument, OutputError> {
         correlation: fit.correlation.clone(),
         unseen: fit.unseen.iter().map(|unseen| combination(view, unseen)).collect(),
         lines: data.rows.iter().map(|row| row.line).collect(),
-        residuals: Named(columns.clone().map(|column| (view.measured(column).0, residuals(column))).collect()),
+        residuals: Named(
+            columns.clone().map(|column| (view.measured(column).0, residuals(column))).collect(),
+        ),
         measured: Named::collect(columns.zip(&fit.measured), |(column, measured)| {
             let (name, unit) = view.measured(column);
             let document = MeasuredDocument {

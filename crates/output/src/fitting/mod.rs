@@ -10,9 +10,7 @@ pub use fit::{
     EstimateDocument, FitDocument, FitWorkDocument, LeftOutDocument, MeasuredDocument, SpecimenDocument,
     SpreadDocument, UnseenDocument, fit_document,
 };
-pub use formula::{
-    FormulaDocument, FormulaPieceDocument, FormulaVariableDocument, formula_document,
-};
+pub use formula::{FormulaDocument, FormulaPieceDocument, FormulaVariableDocument, formula_document};
 pub use table::{fit_csv, points_csv};
 
 use flexura_model::{FitStudy, FormulaQuantity, FormulaStudy, Model};

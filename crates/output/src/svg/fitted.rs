@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::canvas::{Canvas, Style};
 use super::diagram::draw_axes;
-use super::{COLOURS, LOAD, shortened};
+use super::{COLOURS, INK, LOAD, shortened};
 use crate::fitting::{FitView, FormulaView};
 
 /// Frames of the upper and the lower panel, px, and the room around them.
@@ -16,7 +16,7 @@ const TOP: f64 = 76.0;
 const GAP: f64 = 52.0;
 /// Most panels side by side, and most specimens in the legend.
 const MOST: usize = 3;
-const NAMED: usize = 8;
+const NAMED: usize = 10;
 
 /// Dots over x: value, what the model or formula says, and the colour's number.
 struct Dot {
@@ -39,6 +39,15 @@ fn bounds(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     Some(known.fold([first; 2], |[low, high], value| [low.min(value), high.max(value)]))
 }
 
+/// Colours of groups: those of all pictures, then darker ones.
+fn colour(group: usize) -> &'static str {
+    const MORE: [&str; 4] = [INK, "#7f3b08", "#542788", "#666666"];
+    match group % (COLOURS.len() + MORE.len()) {
+        group if group < COLOURS.len() => COLOURS[group],
+        group => MORE[group - COLOURS.len()],
+    }
+}
+
 fn draw(canvas: &mut Canvas, column: &Column, left: f64, lines: bool) {
     let Some(ends) = bounds(column.dots.iter().map(|dot| dot.x)) else { return };
     let Some(range) = bounds(column.dots.iter().flat_map(|dot| [dot.value, dot.curve])) else { return };
@@ -49,7 +58,6 @@ fn draw(canvas: &mut Canvas, column: &Column, left: f64, lines: bool) {
     draw_axes(canvas, frame, &horizontal(), &vertical);
     let axis = horizontal();
     let place = |x: f64, y: f64| [left + WIDTH * axis.place(x), TOP + UPPER * (1.0 - vertical.place(y))];
-    let colour = |group: usize| COLOURS[group % COLOURS.len()];
     let groups = column.dots.iter().map(|dot| dot.group).max().map_or(0, |last| last + 1);
     for group in (0..groups).filter(|_| lines) {
         let mut own: Vec<&Dot> = column.dots.iter().filter(|dot| dot.group == group).collect();
@@ -88,8 +96,7 @@ fn sheet(title: &str, note: &str, bad: bool, columns: &[Column], legend: &[Strin
     let left = count as f64 * (LEFT + WIDTH) + 24.0;
     for (i, name) in legend.iter().enumerate().filter(|_| legend.len() > 1).take(NAMED) {
         let y = TOP + 10.0 + 18.0 * i as f64;
-        let colour = COLOURS[i % COLOURS.len()];
-        canvas.circle([left, y - 4.0], 3.4, colour, &Style::line(colour, 0.8));
+        canvas.circle([left, y - 4.0], 3.4, colour(i), &Style::line(colour(i), 0.8));
         canvas.text([left + 10.0, y], &shortened(name, 16), "start", 11.0, "#222222");
     }
     if legend.len() > NAMED {
