@@ -19,6 +19,7 @@ use std::process::Command;
 
 /// Pictures: name, which of the files that are written it is, and the arguments of the command that draws it.
 const PICTURES: &[(&str, &str, &[&str])] = &[
+    ("bone_fit", "fit.svg", &["fit", "models/bone_bending.toml"]),
     ("compression_spring", "shape.svg", &["solve", "models/compression_spring.toml", "--set", "push=5 N"]),
     ("ellipse_on_circle", "roll/shapes.svg", &["run", "models/ellipse_on_circle.toml", "roll"]),
     ("explicit_recipe", "compare/diagram.svg", &["run", "models/explicit_recipe.toml", "compare"]),
@@ -103,7 +104,9 @@ fn comparable(text: &str) -> Vec<&str> {
         if line.is_empty() || line.starts_with("```") {
             in_points = false;
         }
-        let is_count = line.contains("Newton steps") || in_points && !line.contains("stalled");
+        let is_count = line.contains("Newton steps")
+            || line.contains(" degrees of freedom, ")
+            || in_points && !line.contains("stalled");
         in_points |= line.starts_with("branches  from") || line.starts_with("critical ");
         !is_count
     };

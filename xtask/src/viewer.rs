@@ -128,9 +128,10 @@ fn photograph(flags: &str) -> Result<String, String> {
 const HEAD: &str = "# Gallery\n\nEvery example that `flexura examples` lists, as the page of its result shows it (`--report FILE`): beams coloured by their \
                     stress where they have one.\nThese pictures are made by `cargo xtask pictures`. Six of the examples can be moved and solved again in [one page](live.html), made by `cargo xtask live`.\n\n";
 
-/// A model with studies shows the first of them.
+/// A model with studies whose states a page can show shows the first of them.
 fn study(text: &str) -> &'static str {
-    if text.lines().any(|line| line.starts_with("[study.")) { "run" } else { "solve" }
+    let kinds = ["trace", "buckle", "inverse_dynamics"].map(|word| format!("kind = \"{word}\""));
+    if text.lines().any(|line| kinds.iter().any(|kind| line.starts_with(kind))) { "run" } else { "solve" }
 }
 
 /// The first line of a model file says what it is.

@@ -8,7 +8,7 @@ use crate::least_squares::Residuals;
 use flexura_model::{FitStudy, Model};
 use flexura_study::{Interrupt, ProblemError};
 use nalgebra::{DMatrix, DVector};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// One unknown number.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +58,7 @@ impl<'m> Problem<'m> {
         let parameters: Vec<usize> = study.unknowns.iter().map(|unknown| unknown.parameter).collect();
         let variables = variables(model, study);
         let has_own = study.unknowns.iter().any(|unknown| unknown.is_per_specimen);
-        let mut known: HashMap<(Vec<u64>, usize), usize> = HashMap::new();
+        let mut known: BTreeMap<(Vec<u64>, usize), usize> = BTreeMap::new();
         let mut condition = Vec::with_capacity(data.rows.len());
         for row in &data.rows {
             let bits = row.set.iter().map(|value| value.to_bits()).collect();
@@ -118,7 +118,7 @@ impl<'m> Problem<'m> {
     ) -> Vec<Result<Answer, String>> {
         let data = &self.study.data;
         let mut asked: Vec<(usize, Vec<(usize, f64)>)> = Vec::new();
-        let mut position: HashMap<usize, usize> = HashMap::new();
+        let mut position: BTreeMap<usize, usize> = BTreeMap::new();
         let mut of_row = Vec::with_capacity(rows.len());
         for row in rows {
             let condition = self.condition[*row];

@@ -154,7 +154,7 @@ fn the_modulus_and_the_length_that_made_the_data_are_found() {
 
 #[test]
 fn a_ligament_is_found_by_its_force_and_by_its_logarithm() {
-    // Table 4.2: eight samples of different area and length share the law; here with their areas as a column.
+    // Eight samples share the law and differ by their areas, as those of Table 4.2 do.
     let areas = [73.22, 83.99, 52.69, 81.02, 104.5, 73.8, 50.68, 22.29];
     let columns = "columns = [\"stretch [mm]\", \"area [mm^2]\", \"force [N]\", \"specimen\"]";
     let all = rows(8 * 12, |i| {
@@ -374,4 +374,32 @@ fn rows_without_an_equilibrium_are_left_out_with_their_reason() {
     assert_eq!(fit.left_out[0].0, 2);
     assert!(fit.warnings.iter().any(|w| w.starts_with("line 3 left out")), "{:?}", fit.warnings);
     assert!((fit.estimates[0].value - 1.05).abs() < 1e-6, "{:?}", fit.estimates);
+}
+
+#[test]
+fn a_calibration_is_fitted_piece_by_piece() {
+    // (4.16) of the thesis: the force of a motor by its voltage, 1.82 V² - 0.27 V + 0.09 up to one volt and 3.37 V - 1.73 beyond.
+    let text = LIGAMENT
+        .replace("[parameter]\n", "[parameter]\nvolt = 1\na = \"1 N\"\nb = \"1 N\"\nc = \"1 N\"\n")
+        .replace("[output]\n", "[output]\nmotor = \"a*volt^2 + b*volt + c\"\n");
+    let low = |v: f64| 1.82 * v * v - 0.27 * v + 0.09;
+    let high = |v: f64| 3.37 * v - 1.73;
+    let mut noise = Noise(2);
+    let mut row = |v: f64, force: f64| format!("[{v}, {}]", force + 1e-3 * noise.normal());
+    let lows: Vec<String> = (1..=20).map(|i| f64::from(i) * 0.05).map(|v| row(v, low(v))).collect();
+    let highs: Vec<String> = (1..=20).map(|i| 1.0 + f64::from(i) * 0.2).map(|v| row(v, high(v))).collect();
+    for (rows, unknown, truth) in [
+        (lows, "[\"a\", \"b\", \"c\"]", vec![1.82, -0.27, 0.09]),
+        (highs, "[\"b\", \"c\"]", vec![3.37, -1.73]),
+    ] {
+        let text = if truth.len() == 2 { text.replace("a = \"1 N\"", "a = \"0 N\"") } else { text.clone() };
+        let data = format!("data = {{ columns = [\"volt\", \"motor [N]\"], rows = [{}] }}", rows.join(", "));
+        let model = with_study(&text, &format!("unknown = {unknown}\n{data}"));
+        let fit = found(&model, &study(&model));
+        for (estimate, truth) in fit.estimates.iter().zip(truth) {
+            let [low, high] = estimate.interval.unwrap();
+            // Twice the interval: this is one draw.
+            assert!((estimate.value - truth).abs() < high - low, "{:?} {truth}", estimate);
+        }
+    }
 }

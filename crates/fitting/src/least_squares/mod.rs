@@ -3,7 +3,7 @@
 //!
 //! With the residuals r(x) and J = ∂r/∂x a step minimises |r + J s| within |D s| ≤ Δ, D the largest norms of J's columns so far.
 //! Variables at a bound that the step would cross are held there. Between two Jacobians J follows the residuals by Broyden's rank
-//! one, since residuals are cheaper than their derivatives; nothing is called an end that a fresh J has not confirmed.
+//! one in each row, since residuals are cheaper than their derivatives; nothing is called an end that a fresh J has not confirmed.
 
 mod loss;
 #[cfg(test)]
@@ -196,7 +196,7 @@ impl Search<'_> {
                 Some((_, cost, residuals)) if ratio > LEAST => {
                     self.iterations += 1;
                     let change = &residuals - &at.residuals - &jacobian * &step;
-                    jacobian += change * step.transpose() / step.norm_squared();
+                    follow(&mut jacobian, &at.jacobian, &change, &step);
                     (at.x, at.residuals, at.cost) = (x, residuals, cost);
                     fresh = false;
                     if ratio < POOR && self.refresh(problem, &mut at) {
@@ -280,6 +280,18 @@ impl Search<'_> {
 
 fn held_part(step: &DVector<f64>, held: &[bool]) -> DVector<f64> {
     DVector::from_fn(step.len(), |k, _| if held[k] { step[k] } else { 0.0 })
+}
+
+/// Broyden's rank one, row by row: what does not depend on a variable stays so (L. K. Schubert, 1970). `pattern` is the last exact
+/// Jacobian.
+fn follow(jacobian: &mut DMatrix<f64>, pattern: &DMatrix<f64>, change: &DVector<f64>, step: &DVector<f64>) {
+    for i in 0..jacobian.nrows() {
+        let own: Vec<usize> = (0..step.len()).filter(|k| pattern[(i, *k)] != 0.0).collect();
+        let square: f64 = own.iter().map(|k| step[*k].powi(2)).sum();
+        if square > 0.0 {
+            own.iter().for_each(|k| jacobian[(i, *k)] += change[i] * step[*k] / square);
+        }
+    }
 }
 
 /// The s of the free variables with |J s - right| least within |D s| ≤ radius. The singular values of J D⁻¹ make the damped step a
