@@ -15,8 +15,11 @@ use flexura::solution::ResponseFormula;
 use flexura::{Error, study_named};
 use std::path::Path;
 
+/// Makes the text of a formula.
+type Writer = fn(&FormulaView<'_>) -> String;
+
 /// How a formula is written, by the ending of the file.
-const WRITERS: [(&str, fn(&FormulaView<'_>) -> String); 4] =
+const WRITERS: [(&str, Writer); 4] =
     [("toml", formula_toml), ("csv", formula_csv), ("h", formula_c), ("rs", formula_rust)];
 
 pub fn run(arguments: &FormulaArguments) -> Result<(), Failure> {
@@ -58,7 +61,7 @@ pub fn run(arguments: &FormulaArguments) -> Result<(), Failure> {
     }
 }
 
-fn writer(path: &Path) -> Result<fn(&FormulaView<'_>) -> String, Failure> {
+fn writer(path: &Path) -> Result<Writer, Failure> {
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     WRITERS.iter().find(|(known, _)| *known == ending).map(|(_, write)| *write).ok_or_else(|| {
         let message = format!("cannot tell how to write {}", visible(&path.to_string_lossy()));
