@@ -63,19 +63,27 @@ pub(crate) fn rows(
     loss: Loss,
 ) -> (Vec<FittedRow>, Vec<MeasuredFit>) {
     let data = &problem.study.data;
-    let all: Vec<usize> = (0..data.rows.len()).collect();
-    let answers = match minimum.residuals.is_empty() {
-        true => Vec::new(),
-        false => problem.answers(&minimum.x, &all, false),
-    };
-    let mut rows = Vec::with_capacity(all.len());
     let count = data.measured.len();
+    let mut known: Vec<Option<Vec<Option<f64>>>> = vec![None; data.rows.len()];
+    // Rows of which everything was measured are known by their residuals.
+    for (place, residual) in problem.places().iter().zip(&minimum.residuals) {
+        let measured = &data.rows[place.row].measured;
+        if let Some(value) = measured[place.column].filter(|_| measured.iter().all(Option::is_some)) {
+            let computed = known[place.row].get_or_insert_with(|| vec![None; count]);
+            computed[place.column] = Some(value + residual * problem.unit_of(*place));
+        }
+    }
+    let others: Vec<usize> = (0..known.len()).filter(|row| known[*row].is_none()).collect();
+    if !minimum.residuals.is_empty() {
+        let answers = problem.answers(&minimum.x, &others, false);
+        for (row, answer) in others.iter().zip(answers) {
+            known[*row] = answer.ok().map(|answer| problem.computed(&answer));
+        }
+    }
+    let mut rows = Vec::with_capacity(known.len());
     let mut pairs: Vec<Vec<(usize, f64, f64)>> = vec![Vec::new(); count];
-    for row in all {
-        let computed = match answers.get(row) {
-            Some(Ok(answer)) => problem.computed(answer),
-            _ => Vec::new(),
-        };
+    for (row, computed) in known.into_iter().enumerate() {
+        let computed = computed.unwrap_or_default();
         let mut weights = vec![1.0; count];
         for (column, computed) in computed.iter().enumerate() {
             let (Some(measured), Some(computed)) = (data.rows[row].measured[column], computed) else {

@@ -181,5 +181,5 @@ fn a_run_of_all_studies_shows_on_its_page_those_that_have_states() {
     let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(json["studies"]["slide"]["study"], "formula");
     assert!(page.is_file());
-    refused(&["run", FIT, "--report", page.to_str().unwrap()], &["no states of the mechanism"]);
+    refused(&["run", FIT, "--quiet", "--report", page.to_str().unwrap()], &["no states of the mechanism"]);
 }
