@@ -1,5 +1,6 @@
 //! Samples along beams and the courses of cables, in SI units.
 
+use crate::beam::LocalLaw;
 use crate::channel::TendonChannel;
 use crate::extract::GAUSS;
 use crate::lower::{Course, Span};
@@ -168,10 +169,14 @@ impl Equilibrium {
                         sum
                     };
                     let mut a = stretch.s[0];
+                    let mut is_end_wanted = false;
                     let inside =
                         places.iter().filter(|s| **s > stretch.s[0] + tiny && **s <= stretch.s[1] + tiny);
                     for &b in inside {
-                        let b = b.min(stretch.s[1]);
+                        is_end_wanted = b >= stretch.s[1] - tiny;
+                        if is_end_wanted {
+                            break;
+                        }
                         if integrals {
                             let (part, force) = stored(a, b, &mut state, &mut to);
                             energy += part;
@@ -181,15 +186,20 @@ impl Equilibrium {
                         out.samples.push(self.sample(beam, b, &state, &threads));
                         a = b;
                     }
-                    // A stretch may end between two samples.
                     if integrals && stretch.s[1] - a > tiny {
                         let (part, force) = stored(a, stretch.s[1], &mut state, &mut to);
                         energy += part;
                         out.foundation_force += force;
                     }
-                    // The stretch itself gives the state that the next one starts from, jumps included.
+                    // The stretch itself gives the state at its end, and that from which the next one starts.
                     state = start;
-                    carry_plain(std::slice::from_ref(stretch), &acting, &mut state);
+                    carry_through(stretch, &acting, &mut state);
+                    if is_end_wanted {
+                        out.samples.push(self.sample(beam, stretch.s[1], &state, &threads));
+                    }
+                    for &j in &stretch.jumps {
+                        jump(&span.jumps[j], self.load, &mut state);
+                    }
                 }
             }
         }
@@ -203,15 +213,14 @@ impl Equilibrium {
         channels.map(|channel| (channel, self.tension(span.tendons[channel.tendon]) * force)).collect()
     }
 
-    /// What the beam itself carries of the section's wrench, in the section's axes, with its strain and curvature; SI.
+    /// What the beam itself carries of the section's wrench at `s`, in the section's axes, with its strain and curvature; SI.
     fn share(
         &self,
-        beam: usize,
+        law: &LocalLaw,
         s: f64,
         state: &Plain,
         threads: &Threads<'_>,
     ) -> (Wrench, Vector3<f64>, Vector3<f64>) {
-        let law = self.lowered.beams[beam].law_at(s);
         let whole = self.lowered.scale.wrench_out(&wrench_of(state));
         let whole = whole.rotated(&pose_of(state).rotation.inverse());
         let own = if threads.is_empty() {
@@ -236,7 +245,8 @@ impl Equilibrium {
         let scale = self.lowered.scale;
         let pose = scale.pose_out(&pose_of(state));
         let inset = s.clamp(1e-12 * law.length, (1.0 - 1e-12) * law.length);
-        let (own, strain, curvature) = self.share(beam, inset, state, threads);
+        let local = law.law_at(inset);
+        let (own, strain, curvature) = self.share(&local, inset, state, threads);
         let whole = scale.wrench_out(&wrench_of(state));
         let rest_pose = self.lowered.beam_rest[beam] * scale.pose_in(&law.shape.pose(s));
         BeamSample {
@@ -245,7 +255,7 @@ impl Equilibrium {
             rest_pose: scale.pose_out(&rest_pose),
             wrench: if threads.is_empty() { whole } else { own.rotated(&pose.rotation) },
             curvature,
-            rest_curvature: law.law_at(inset).k0,
+            rest_curvature: local.k0,
             strain,
             // Where a foundation ends, what is before it counts.
             foundation: law.foundation_at((s - 1e-12 * law.length).max(0.0), &pose.position).0,
@@ -255,8 +265,9 @@ impl Equilibrium {
     /// Energy of the beam and its foundation, ½ (n, m) · C (n, m) + ∫ f du (J/m), and force of the foundation (N/m).
     fn densities(&self, beam: usize, s: f64, state: &Plain, threads: &Threads<'_>) -> (f64, Vector3<f64>) {
         let law = &self.lowered.beams[beam];
-        let (own, strain, curvature) = self.share(beam, s, state, threads);
-        let own = 0.5 * (own.force.dot(&strain) + own.moment.dot(&(curvature - law.law_at(s).k0)));
+        let local = law.law_at(s);
+        let (own, strain, curvature) = self.share(&local, s, state, threads);
+        let own = 0.5 * (own.force.dot(&strain) + own.moment.dot(&(curvature - local.k0)));
         let position = Vector3::from(state.position) * self.lowered.scale.length;
         let (force, pushed) = law.foundation_at(s, &position);
         (own + pushed, force)

@@ -2,7 +2,6 @@
 
 use crate::model::{Issue, Model};
 use crate::modelfile::suggestion;
-use crate::post::{OutputValue, each_output};
 use crate::solution::Status;
 use crate::{Family, Interrupt, ModelFamily, Outcome, Prepared, ProblemError, SampleStatus};
 
@@ -203,14 +202,12 @@ impl Stepper {
             model.unknowns.iter().for_each(|unknown| put(&[model.parameters[unknown.parameter].value]));
             return;
         };
-        let mut solution = self.prepared.problem().solution(2);
-        self.prepared.add_tangents(&mut solution, &[]);
-        let results = each_output(self.prepared.model(), &solution);
+        let values = self.prepared.outputs().unwrap_or_default();
         for output in outputs {
-            match results.get(*output).and_then(|result| result.as_ref().ok()).map(|result| result.value) {
-                Some(OutputValue::Number(value)) => put(&[value]),
-                Some(OutputValue::Vector(vector)) => put(&vector),
-                None => put(&[f64::NAN; 3][..self.model.outputs[*output].formulas.len()]),
+            let before: usize =
+                self.model.outputs[..*output].iter().map(|output| output.formulas.len()).sum();
+            for component in 0..self.model.outputs[*output].formulas.len() {
+                put(&[values.get(before + component).copied().flatten().unwrap_or(f64::NAN)]);
             }
         }
     }

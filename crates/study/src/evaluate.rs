@@ -113,12 +113,8 @@ impl Evaluator {
         let failed = |evaluation: Evaluation, reason: String| {
             Ok(Evaluation { status: Status::Singular, reason: Some(reason), ..evaluation })
         };
-        match self.prepared.outputs_here() {
-            // The targets come behind the outputs.
-            Ok(mut values) => {
-                values.truncate(values.len() - self.model.targets.len());
-                evaluation.values = values;
-            }
+        match self.prepared.outputs() {
+            Ok(values) => evaluation.values = values,
             Err(error) => return failed(evaluation, error.to_string()),
         }
         if !derivatives {

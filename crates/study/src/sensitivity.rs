@@ -132,6 +132,16 @@ impl From<PostError> for SensitivityError {
 }
 
 impl Prepared {
+    /// The outputs of the present state, components one after another, SI; those without a value as None.
+    ///
+    /// # Errors
+    /// Compliances are asked for where the tangent has no inverse.
+    pub fn outputs(&mut self) -> Result<Vec<Option<f64>>, SensitivityError> {
+        let mut values = self.outputs_here()?;
+        values.truncate(values.len() - self.problem.model().targets.len());
+        Ok(values)
+    }
+
     /// The outputs of the present state, components one after another, those without a value as None; then by how much each
     /// target is missed.
     pub(crate) fn outputs_here(&mut self) -> Result<Vec<Option<f64>>, SensitivityError> {
