@@ -26,7 +26,7 @@ from .model import Check, Model, Quantity, load, loads
 from .records import Named, Record
 from .result import Beam, Body, Page, Result
 from .stepper import Step, Stepper
-from .studies import Branch, Buckling, Motion, Path, Study
+from .studies import Branch, Buckling, Motion, Optimum, Path, Study
 from .sweep import Explanation, Sweep, sweep
 
 __all__ = [
@@ -44,6 +44,7 @@ __all__ = [
     "Model",
     "ModelError",
     "Motion",
+    "Optimum",
     "Named",
     "Page",
     "Path",

@@ -18,7 +18,7 @@ from ._references import Handle, text_of
 from .errors import ConvergenceError, ModelError, StudyError
 from .result import Result
 from .fitting import Fit, ResponseFormula
-from .studies import Buckling, Motion, Path, Study
+from .studies import Buckling, Motion, Optimum, Path, Study
 
 if TYPE_CHECKING:
     from ._tables import Tables
@@ -82,6 +82,7 @@ _KINDS: dict[str, type[Study]] = {
     "trace": Path,
     "buckle": Buckling,
     "inverse_dynamics": Motion,
+    "optimise": Optimum,
     "fit": Fit,
     "formula": ResponseFormula,
 }
@@ -501,6 +502,28 @@ class Model(Tables):
         study = {"kind": "formula", "output": str(output), "of": names, **keys}
         found = self.run(study, parameters, tolerance=tolerance, check=check)
         assert isinstance(found, ResponseFormula)
+        return found
+
+    def optimise(
+        self,
+        vary: Mapping[Any, Any],
+        /,
+        *,
+        parameters: Mapping[str, Any] | None = None,
+        tolerance: float = 1e-8,
+        check: bool = True,
+        **keys: Any,
+    ) -> Optimum:
+        """Parameters that make an objective least or greatest under constraints.
+
+        ``vary`` has a range, or a dict with ``range`` and ``guess``, for each parameter that may change; further keywords are keys
+        of a study of the kind ``optimise``: ``minimise="model.mass"`` or ``maximise``, ``constraints=[{"output": ..., "most": ...}]``,
+        ``starts=8``, ``pareto={...}``.
+        """
+        ranges = {str(name): own if isinstance(own, Mapping) else {"range": list(own)} for name, own in vary.items()}
+        study = {"kind": "optimise", "vary": ranges, **keys}
+        found = self.run(study, parameters, tolerance=tolerance, check=check)
+        assert isinstance(found, Optimum)
         return found
 
     def stepper(self, inputs: Sequence[Any] = (), outputs: Sequence[Any] = (), *, tolerance: float = 1e-8) -> Stepper:

@@ -180,6 +180,63 @@ class Buckling(Study):
         return f"<flexura.Buckling {self.model.name!r}: {self.status}, critical at {values}>"
 
 
+class Optimum(Study):
+    """The best design that was found, and the searches that led there."""
+
+    @property
+    def found(self) -> Record | None:
+        """The best design: ``parameters``, ``objective``, ``active``, ``multipliers``, ``constraints``; where none meets all
+        constraints, the one that misses them least."""
+        best: Record | None = self.document["optimum"]
+        return best
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The values of the parameters that were varied, SI."""
+        return {} if self.found is None else dict(self.found["parameters"])
+
+    @property
+    def objective(self) -> float:
+        """The least or greatest value of the objective, SI."""
+        return float("nan") if self.found is None else float(self.found["objective"])
+
+    @property
+    def active(self) -> list[str]:
+        """The bounds that hold the optimum back."""
+        return [] if self.found is None else list(self.found["active"])
+
+    @property
+    def starts(self) -> list[Record]:
+        """Each search: ``from``, ``status``, ``end`` and ``history``."""
+        return list(self.document["starts"])
+
+    @property
+    def front(self) -> list[Record]:
+        """The compromises between two objectives, best of the first one first."""
+        return list(self.document.get("front", []))
+
+    @property
+    def left_out(self) -> list[Record]:
+        """Designs without values, with the reason: the first few."""
+        return list(self.document["left_out"])
+
+    def best_model(self) -> Model:
+        """The model with the values of the best design."""
+        return self.model.with_values(self.parameters)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each design on the way of each search."""
+        import io
+
+        import pandas
+
+        return pandas.read_csv(io.StringIO(self.files["history.csv"]))
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name} = {value:.6g}" for name, value in self.parameters.items())
+        return f"<flexura.Optimum {self.model.name!r}: {self.status}, {self.objective:.6g} at {values}>"
+
+
 class Motion(Study):
     """A motion in time, and the forces that it takes."""
 

@@ -39,6 +39,7 @@ const VERBS: &[&str] = &[
     "buckle",
     "fit",
     "formula",
+    "optimise",
     "run",
     "sweep",
     "check",

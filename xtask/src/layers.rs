@@ -10,7 +10,7 @@ const FLOORS: &[&[&str]] = &[
     &["solution", "mechanics"],
     &["modelfile", "equilibrium", "post"],
     &["study"],
-    &["output", "fitting"],
+    &["output", "fitting", "design"],
     &["report", "raster"],
     &["flexura"],
     &["flexura-cli", "live", "flexura-python", "flexura-c"],
@@ -25,6 +25,7 @@ const NEVER: &[(&str, &[&str])] = &[
     ("output", &["modelfile", "mechanics", "nonlinear", "continuation", "equilibrium", "study"]),
     ("study", &["modelfile"]),
     ("fitting", &["modelfile", "mechanics", "equilibrium"]),
+    ("design", &["modelfile"]),
 ];
 
 fn floor(room: &str) -> Option<usize> {

@@ -12,6 +12,9 @@ use flexura_model::ProbeTarget;
 use flexura_solution::{BeamSample, BeamSolution, CableSolution};
 use flexura_spatial::{Vector3, Wrench};
 
+/// Into how many parts a beam is cut to look for its largest stress, however many samples are wanted.
+const PEAK_PARTS: usize = 100;
+
 /// Channels along a stretch, with the tension (N) in each.
 type Threads<'a> = [(&'a TendonChannel, f64)];
 
@@ -88,6 +91,10 @@ impl Equilibrium {
                 if let ProbeTarget::Beam(id, at) = probe.target
                     && id.0 == beam
                 {
+                    if probe.quantity.is_peak() {
+                        let place = |i: usize| length * i as f64 / PEAK_PARTS as f64;
+                        places.extend((0..=PEAK_PARTS).map(place));
+                    }
                     places.push(at.arc_length(length).clamp(0.0, length));
                 }
             }

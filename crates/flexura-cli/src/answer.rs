@@ -11,8 +11,8 @@ use flexura::Options;
 use flexura::model::{Model, visible};
 use flexura::modelfile::Document;
 use flexura::output::{
-    self, BucklingDocument, FitDocument, FormulaDocument, InverseDynamicsDocument, SceneDocument,
-    TraceDocument, to_json,
+    self, BucklingDocument, FitDocument, FormulaDocument, InverseDynamicsDocument, OptimisationDocument,
+    OptimisationHead, SceneDocument, TraceDocument, to_json,
 };
 use flexura::post::PostError;
 use serde::Serialize;
@@ -187,6 +187,7 @@ pub enum StudyDocument {
     InverseDynamics(Box<InverseDynamicsDocument>),
     Fit(Box<FitDocument>),
     Formula(Box<FormulaDocument>),
+    Optimise(Box<OptimisationDocument>),
 }
 
 /// A document on the disk knows which files stand beside it.
@@ -211,6 +212,10 @@ impl StudyDocument {
             StudyDocument::Buckling(document) => Some(&mut document.scene),
             StudyDocument::InverseDynamics(document) => document.scene.as_mut(),
             StudyDocument::Fit(_) | StudyDocument::Formula(_) => None,
+            StudyDocument::Optimise(document) => match &mut document.head {
+                OptimisationHead::Solved(state) => Some(&mut state.scene),
+                OptimisationHead::Empty { .. } => None,
+            },
         }
     }
 }

@@ -28,6 +28,8 @@ pub enum Command {
     Fit(FitArguments),
     /// Find the formula of a study that repeats an output, and write it for a controller
     Formula(FormulaArguments),
+    /// Choose parameters so that an objective is least or greatest under constraints
+    Optimise(OptimiseArguments),
     /// Do the studies that are written in the file
     Run(RunArguments),
     /// Solve over a grid of parameters, on all cores, into one table
@@ -241,6 +243,25 @@ pub struct FormulaArguments {
     #[arg(long, short = 'o', value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Wanted accuracy of each equilibrium, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
+}
+
+#[derive(Args)]
+pub struct OptimiseArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// The study of the kind `optimise` [default: the first of the file]
+    pub study: Option<String>,
+    /// Write the model with the values of the optimum into this file
+    #[arg(long, value_name = "FILE")]
+    pub write: Option<PathBuf>,
+    /// Write result.json, history.csv, shape.svg and report.html into this folder, and front.csv with two objectives
+    #[arg(long, short = 'o', value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     #[command(flatten)]

@@ -8,6 +8,7 @@ mod arguments;
 mod buckling_summary;
 mod commands;
 mod derivatives;
+mod design_summary;
 mod failure;
 mod files;
 mod fit_summary;
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
         Command::Buckle(arguments) => commands::buckle::run(&arguments),
         Command::Fit(arguments) => commands::fit::run(&arguments),
         Command::Formula(arguments) => commands::formula::run(&arguments),
+        Command::Optimise(arguments) => commands::optimise::run(&arguments),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),

@@ -1,8 +1,8 @@
 //! Bars on standard error while load stepping or a sweep takes its time.
 
 use crate::quantity::quantity;
-use flexura::model::{Parameter, visible};
-use flexura::{MotionProgress, Progress, TraceProgress};
+use flexura::model::{Output, Parameter, visible};
+use flexura::{DesignProgress, MotionProgress, Progress, TraceProgress};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -107,6 +107,40 @@ impl MotionMeter {
 
     pub fn finish(self) {
         self.0.finish();
+    }
+}
+
+/// Shows how far an optimisation has come; nobody knows how many steps it takes.
+pub struct DesignMeter<'a> {
+    meter: Meter,
+    objective: &'a Output,
+}
+
+impl<'a> DesignMeter<'a> {
+    pub fn new(is_quiet: bool, objective: &'a Output) -> Self {
+        Self { meter: Meter::new(is_quiet), objective }
+    }
+
+    pub fn update(&mut self, progress: &DesignProgress) {
+        if !self.meter.is_wanted || self.meter.started.elapsed() < PATIENCE {
+            return;
+        }
+        let bar = self.meter.bar.get_or_insert_with(new_spinner);
+        let value = quantity(progress.objective, &self.objective.unit, 5);
+        let which = match progress.start + 1 {
+            start if start <= progress.starts => format!("search {start} of {}", progress.starts),
+            _ => "front".to_owned(),
+        };
+        let (step, designs) = (progress.iteration, progress.evaluations);
+        bar.set_message(format!(
+            "{which}, step {step}, {designs} designs, {} = {value}",
+            visible(&self.objective.name)
+        ));
+        bar.tick();
+    }
+
+    pub fn finish(self) {
+        self.meter.finish();
     }
 }
 

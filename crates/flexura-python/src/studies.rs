@@ -3,13 +3,14 @@
 use crate::errors::{Wrong, bug};
 use crate::solved::{Request, Solved};
 use flexura::model::{Model, Study as Described, StudyKind};
+use flexura::modelfile::to_toml;
 use flexura::output::{
-    FitView, FormulaView, TraceView, critical_csv, diagram_svg, fit_csv, fit_document, fit_svg, formula_c,
-    formula_csv, formula_document, formula_rust, formula_svg, formula_toml, modes_csv, modes_svg, motion_csv,
-    motion_document, motion_svg, path_csv, shapes_svg, to_json, trace_document,
+    FitView, FormulaView, OptimisationHead, TraceView, critical_csv, diagram_svg, fit_csv, fit_document, fit_svg, formula_c,
+    formula_csv, formula_document, formula_rust, formula_svg, formula_toml, front_csv, history_csv, modes_csv, modes_svg, motion_csv,
+    motion_document, motion_svg, path_csv, shape_svg, shapes_svg, to_json, trace_document,
 };
 use flexura::solution::Status;
-use flexura::{Buckled, Options, motion_view, solve_model};
+use flexura::{Buckled, Optimised, Options, motion_view, solve_model};
 use pyo3::prelude::*;
 
 /// What a study came to.
@@ -119,6 +120,25 @@ impl Study {
                     ("formula.rs", formula_rust(&view)),
                 ];
                 let ended = Self::ended("formula", found.status, found.reason.clone());
+                Self { document, files: named(files), ..ended }
+            }
+            StudyKind::Optimise(design) => {
+                let optimised = Optimised::new(&model, design, options, &mut |_| {}).map_err(refused)?;
+                let result = &optimised.result;
+                let document = optimised.document().map(|mut document| {
+                    if let OptimisationHead::Solved(state) = &mut document.head {
+                        state.scene.text = text();
+                    }
+                    document
+                });
+                let document = document.and_then(|document| to_json(&document)).ok();
+                let view = optimised.view();
+                let mut files = Vec::new();
+                files.extend(result.solution.as_ref().map(|s| ("shape.svg", shape_svg(&optimised.model, s))));
+                files.extend(history_csv(&view).map(|table| ("history.csv", table)));
+                files.extend(front_csv(&view).ok().flatten().map(|table| ("front.csv", table)));
+                files.extend(to_toml(&optimised.model).map(|text| ("optimum.toml", text)));
+                let ended = Self::ended("optimise", result.status, result.reason.clone());
                 Self { document, files: named(files), ..ended }
             }
         };

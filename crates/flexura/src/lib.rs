@@ -152,6 +152,8 @@
 //! it came. [`post::evaluate`] gives stresses, safety factors and outputs; [`output::document`] the result
 //! document; [`output::beams_csv`], [`output::model_vtp`] and [`output::shape_svg`] the files; [`report::page`] the page that shows a document.
 
+#[cfg(feature = "design")]
+mod design_file;
 mod motion_file;
 mod places;
 mod solve_file;
@@ -159,6 +161,10 @@ mod stepper;
 mod sweep;
 mod trace_file;
 
+#[cfg(feature = "design")]
+pub use design_file::{Optimised, optimise_file};
+#[cfg(feature = "design")]
+pub use flexura_design::{DesignProgress, optimise};
 pub use motion_file::{Moved, inverse_dynamics_file, motion_view};
 pub use places::place;
 pub use stepper::Stepper;

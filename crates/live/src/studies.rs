@@ -23,7 +23,7 @@ impl Session {
             StudyKind::Trace(study) => self.follow(name, &study),
             StudyKind::Buckle(study) => self.buckle(name, &study),
             StudyKind::InverseDynamics(study) => self.travel(name, &study),
-            StudyKind::Fit(_) | StudyKind::Formula(_) => {
+            StudyKind::Fit(_) | StudyKind::Formula(_) | StudyKind::Optimise(_) => {
                 Err(Trouble::plain(format!("`{name}` has no states to show; `flexura run` does it")))
             }
         }

@@ -11,6 +11,7 @@ mod binding;
 mod body;
 mod cable;
 mod contact;
+mod design;
 mod fit;
 mod foundation;
 mod inverse;
@@ -35,6 +36,7 @@ pub use contact::{
     Boundary, BoundaryCurve, Contact, RevolutionProfile, Rolling, RollingCoordinate, Side, Slide, Surface,
     SurfaceMotion, Surfaces,
 };
+pub use design::{Condition, Front, OptimiseStudy, Optimiser, Reading, Varied, Wanted, Where};
 pub use fit::{
     FitLoss, FitStudy, FitUnknown, FormulaFactor, FormulaPiece, FormulaQuantity, FormulaSource, FormulaStudy,
     FormulaTerm, FormulaUnit, FormulaVariable, MeasuredRow, Measurements,

@@ -47,6 +47,18 @@ pub enum ProbeTarget {
     Model,
 }
 
+impl Quantity {
+    /// Is it of a beam as a whole, wherever the probe is?
+    pub fn is_of_whole_beam(self) -> bool {
+        matches!(self, Quantity::FoundationForce | Quantity::Mass) || self.is_peak()
+    }
+
+    /// Is it the largest or least of what stands along a beam?
+    pub fn is_peak(self) -> bool {
+        matches!(self, Quantity::MaxStress | Quantity::MaxStrain | Quantity::MinSafety)
+    }
+}
+
 /// Quantities that can be read off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
@@ -72,6 +84,14 @@ pub enum Quantity {
     Foundation,
     /// Force of its foundation on the whole beam, wherever the probe is (beam), global.
     FoundationForce,
+    /// Largest von Mises stress along the whole beam, found between samples too (beam), Pa.
+    MaxStress,
+    /// Surface strain of largest size along the whole beam, as a size (beam).
+    MaxStrain,
+    /// Yield strength over the largest von Mises stress (beam).
+    MinSafety,
+    /// Mass of the whole beam (beam), or of all beams, bodies and point masses (model), kg.
+    Mass,
     /// Coordinate of the joint; component is its number.
     Coordinate,
     /// Effort on a joint coordinate; component is its number.

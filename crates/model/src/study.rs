@@ -1,6 +1,6 @@
 //! What is to be done with a mechanism: the studies that stand in its file.
 
-use crate::{FitStudy, FormulaStudy, InverseDynamicsStudy, Target};
+use crate::{FitStudy, FormulaStudy, InverseDynamicsStudy, OptimiseStudy, Target};
 
 /// A named study.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +26,8 @@ pub enum StudyKind {
     Fit(FitStudy),
     /// A formula that repeats an output.
     Formula(FormulaStudy),
+    /// Parameters that make an objective least or greatest under constraints.
+    Optimise(OptimiseStudy),
 }
 
 impl StudyKind {
@@ -38,6 +40,7 @@ impl StudyKind {
             StudyKind::InverseDynamics(_) => "inverse_dynamics",
             StudyKind::Fit(_) => "fit",
             StudyKind::Formula(_) => "formula",
+            StudyKind::Optimise(_) => "optimise",
         }
     }
 }

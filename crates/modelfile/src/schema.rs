@@ -155,7 +155,7 @@ fn value(shape: &Shape) -> String {
         Shape::Text | Shape::Name(_) | Shape::Parameter | Shape::Equation => type_of("string"),
         Shape::Flag => type_of("boolean"),
         Shape::Choice(words) => object(&[("enum", array(words.iter().map(|(word, _)| text(word))))]),
-        Shape::Placed(place) => any_of([type_of("string"), table(place)]),
+        Shape::Placed(inner) | Shape::Reading(inner) => any_of([type_of("string"), table(inner)]),
         Shape::Table(inner) => table(inner),
         Shape::Tables(inner) => any_of([table(inner), list(table(inner), None, 0)]),
         Shape::NamedTables(inner) => named(object(&table_members(inner, Some(&REPEAT)))),

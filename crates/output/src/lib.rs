@@ -9,6 +9,7 @@
 mod contact;
 mod csv;
 mod derivatives;
+mod design;
 mod document;
 mod fitting;
 mod json;
@@ -24,6 +25,11 @@ mod wire;
 
 pub use contact::{ContactDocument, SideDocument};
 pub use csv::{beams_csv, csv_line};
+pub use design::{
+    ConditionDocument, DesignDocument, DesignView, DesignWorkDocument, MultiplierDocument,
+    OptimisationDocument, OptimisationHead, RefusedDesignDocument, SearchDocument, StepDocument, bound_name,
+    front_csv, history_csv, optimisation_document,
+};
 pub use document::{document, equilibrium_document};
 pub use fitting::{
     EstimateDocument, FitDocument, FitView, FitWorkDocument, FormulaDocument, FormulaPieceDocument,

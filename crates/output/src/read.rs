@@ -142,7 +142,7 @@ pub(crate) fn status_of(word: &str) -> Result<Status, ReadError> {
     status.ok_or_else(|| ReadError::Broken(format!("there is no status `{word}`")))
 }
 
-const STATUSES: [Status; 7] = [
+const STATUSES: [Status; 8] = [
     Status::Converged,
     Status::Stalled,
     Status::IterationLimit,
@@ -150,6 +150,7 @@ const STATUSES: [Status; 7] = [
     Status::Inconsistent,
     Status::AccuracyLimit,
     Status::Interrupted,
+    Status::Infeasible,
 ];
 
 /// The document's entries in the order of the model's names, which must be the same ones.

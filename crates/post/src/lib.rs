@@ -10,6 +10,7 @@ mod screw;
 mod strain;
 mod stress;
 mod summary;
+mod whole;
 
 pub use dependence::{Dependence, dependences};
 pub use flexura_geometry::SectionStress;
@@ -22,6 +23,8 @@ pub use summary::{
     BeamSummary, BodySummary, CoordinateSummary, JointSummary, OutputSummary, Scales, Summary, TubesSummary,
     summarise,
 };
+
+pub use whole::{beam_mass, beam_peak, model_mass, peak_between};
 
 use flexura_model::{Model, Output, ProbeTarget, Quantity};
 use flexura_solution::Solution;
@@ -109,7 +112,7 @@ fn outputs_of<'a>(
     let stressed = |beam: usize| {
         outputs.clone().flat_map(|output| &output.probes).any(|probe| {
             matches!(probe.target, ProbeTarget::Beam(id, _) if id.0 == beam)
-                && matches!(probe.quantity, Quantity::Stress | Quantity::Strain)
+                && (matches!(probe.quantity, Quantity::Stress | Quantity::Strain) || probe.quantity.is_peak())
         })
     };
     let beams = model.beams.iter().zip(&solution.beams).enumerate();
@@ -188,6 +191,14 @@ pub enum PostError {
         /// Name of the beam.
         beam: String,
     },
+    /// Safety of a beam whose material has no yield strength.
+    #[error("output `{output}` asks for the safety of beam `{beam}`, whose material has no `yield_strength`")]
+    NoStrength {
+        /// Name of the output.
+        output: String,
+        /// Name of the beam.
+        beam: String,
+    },
     /// The solution holds no sample where an output looks.
     #[error("output `{output}` looks at s = {s} m of beam `{beam}`, where the solution has no sample")]
     NoSample {
@@ -241,6 +252,7 @@ impl PostError {
             PostError::NotFinite { output, .. }
             | PostError::Blocked { output, .. }
             | PostError::NoStress { output, .. }
+            | PostError::NoStrength { output, .. }
             | PostError::NoSample { output, .. }
             | PostError::NoTurning { output, .. }
             | PostError::NoCompliance { output, .. }

@@ -2,6 +2,7 @@
 
 use crate::place::place_name;
 use crate::screw::{center_of_compliance, finite_screw, instantaneous_screw};
+use crate::whole::{beam_mass, beam_peak, model_mass};
 use crate::{BeamStress, PostError};
 use flexura_model::{
     At, BeamId, BodyId, Drive, JointLaw, Model, Mount, Output, Probe, ProbeTarget, Quantity,
@@ -157,6 +158,8 @@ impl Reader<'_> {
             }
             ProbeTarget::Model => match probe.quantity {
                 Quantity::Energy => Ok(self.solution.energy),
+                Quantity::Mass => model_mass(self.model, self.solution)
+                    .ok_or_else(|| self.no_such_quantity("the whole mechanism")),
                 Quantity::Parameter => {
                     let parameter = self.model.parameters.get(component);
                     parameter
@@ -281,6 +284,12 @@ impl Reader<'_> {
     fn read_beam(&self, id: BeamId, at: At, quantity: Quantity, component: usize) -> Result<f64, PostError> {
         let missing = || self.no_such_quantity("a beam");
         let result = self.solution.beams.get(id.0).ok_or_else(missing)?;
+        if quantity == Quantity::Mass {
+            return beam_mass(self.model, &self.model[id], result.length).ok_or_else(missing);
+        }
+        if quantity.is_peak() {
+            return self.peak(id, quantity);
+        }
         let index = self.sample(id, at)?;
         let sample = &result.samples[index];
         let stress = || {
@@ -308,6 +317,16 @@ impl Reader<'_> {
             _ => return pose_component(&sample.pose, quantity, component).ok_or_else(missing),
         };
         vector.get(component).copied().ok_or_else(missing)
+    }
+
+    fn peak(&self, id: BeamId, quantity: Quantity) -> Result<f64, PostError> {
+        let beam = &self.model[id];
+        let stress = self.stress.get(id.0).and_then(|stress| stress.as_ref());
+        let stress = stress
+            .ok_or_else(|| PostError::NoStress { output: self.output.to_owned(), beam: beam.name.clone() })?;
+        let samples = &self.solution.beams[id.0].samples;
+        beam_peak(self.model, beam, samples, stress, quantity)
+            .ok_or_else(|| PostError::NoStrength { output: self.output.to_owned(), beam: beam.name.clone() })
     }
 
     /// The sample at a place, which the solver has put there because an output asks for it.

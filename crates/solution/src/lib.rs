@@ -4,6 +4,7 @@
 //! unless said otherwise. `F` and `M` act, by the part beyond s, on the part before s.
 
 mod contact;
+mod design;
 mod fit;
 mod motion;
 mod trace;
@@ -11,6 +12,7 @@ mod warnings;
 mod words;
 
 pub use contact::ContactSolution;
+pub use design::{Active, Bound, Design, DesignWork, LeftOut, Optimisation, StartEnd, Step};
 pub use fit::{
     Estimate, Fit, FitWork, FittedRow, MeasuredFit, ResponseFormula, ResponsePiece, ResponsePoint,
     SpecimenFit, Spread, Unseen,
@@ -42,6 +44,8 @@ pub enum Status {
     AccuracyLimit,
     /// Somebody asked for the end before it was reached.
     Interrupted,
+    /// No design was found that meets all that is asked.
+    Infeasible,
 }
 
 impl Status {
@@ -55,6 +59,7 @@ impl Status {
             Status::Inconsistent => "inconsistent",
             Status::AccuracyLimit => "accuracy_limit",
             Status::Interrupted => "interrupted",
+            Status::Infeasible => "infeasible",
         }
     }
 }

@@ -36,7 +36,12 @@ pub struct Evaluator {
     tolerance: f64,
     interrupt: Interrupt,
     stands: bool,
+    /// Is a way that is too long at once gone in parts, before it is gone from rest?
+    goes_in_parts: bool,
 }
+
+/// The shortest part of such a way.
+const SHORTEST: f64 = 1.0 / 64.0;
 
 impl Evaluator {
     /// Makes a model ready; `parameters` are those by which derivatives will be wanted, positions in
@@ -63,13 +68,20 @@ impl Evaluator {
         let prepared = Prepared::new(model)?;
         let parameters = parameters.to_vec();
         let interrupt = Interrupt::default();
-        Ok(Self { prepared, model: model.clone(), parameters, tolerance, interrupt, stands: false })
+        let (stands, goes_in_parts) = (false, false);
+        Ok(Self { prepared, model: model.clone(), parameters, tolerance, interrupt, stands, goes_in_parts })
     }
 
     /// Ends every solve early once this flag is raised.
     pub fn heed(&mut self, interrupt: &Interrupt) {
         self.interrupt = interrupt.clone();
         self.prepared.heed(interrupt);
+    }
+
+    /// Goes to values that are too far from the last ones in parts, so that it stays on the same branch of equilibria where it can. Each
+    /// equilibrium then costs a copy of the last one.
+    pub fn go_in_parts(&mut self) {
+        self.goes_in_parts = true;
     }
 
     /// The parameters by which there are derivatives.
@@ -90,6 +102,17 @@ impl Evaluator {
     /// The next equilibrium is reached from rest.
     pub fn reset(&mut self) {
         self.stands = false;
+    }
+
+    /// Takes an equilibrium with these values (SI) that was found before, by a path for instance, as where the next one is reached
+    /// from. Is it one?
+    ///
+    /// # Errors
+    /// The values make no sound model.
+    pub fn stand(&mut self, values: &[(usize, f64)], from: &Solution) -> Result<bool, ProblemError> {
+        self.put(values)?;
+        self.stands = self.prepared.solve_near(from, self.tolerance).is_some();
+        Ok(self.stands)
     }
 
     /// The equilibrium with these values (SI) of parameters; others keep what they had last. Derivatives take some three
@@ -148,7 +171,8 @@ impl Evaluator {
         self.prepared.solution(&outcome, samples)
     }
 
-    fn lead(&mut self, values: &[(usize, f64)]) -> Result<Outcome, ProblemError> {
+    /// Puts the model with these values under the present state.
+    fn put(&mut self, values: &[(usize, f64)]) -> Result<(), ProblemError> {
         let unsound =
             |issue: Issue| ProblemError::new(issue.path, issue.message, issue.hint.unwrap_or_default());
         if self.stands {
@@ -165,6 +189,17 @@ impl Evaluator {
             self.prepared.heed(&self.interrupt);
             self.stands = false;
         }
+        Ok(())
+    }
+
+    fn lead(&mut self, values: &[(usize, f64)]) -> Result<Outcome, ProblemError> {
+        if self.stands && self.goes_in_parts && self.model.unknowns.is_empty() {
+            if let Some(outcome) = self.in_parts(values)? {
+                return Ok(outcome);
+            }
+            self.stands = false;
+        }
+        self.put(values)?;
         let mut family = ModelFamily::new(&self.model);
         let (tolerance, idle) = (self.tolerance, &mut |_| {});
         Ok(match (self.stands, self.model.unknowns.is_empty()) {
@@ -173,5 +208,36 @@ impl Evaluator {
             (true, false) => self.prepared.solve_inverse_from_here(&mut family, tolerance),
             (false, false) => self.prepared.solve_inverse(&mut family, tolerance, idle),
         })
+    }
+
+    /// From the equilibrium last found to these values along the straight line between the two, in steps that are near enough; None where
+    /// it cannot be gone.
+    fn in_parts(&mut self, values: &[(usize, f64)]) -> Result<Option<Outcome>, ProblemError> {
+        let start: Vec<f64> = values.iter().map(|(p, _)| self.model.parameters[*p].value).collect();
+        let (mut part, mut step) = (0.0_f64, 1.0_f64);
+        while !self.prepared.problem.is_interrupted() {
+            let next = if part + step > 1.0 - 1e-9 { 1.0 } else { part + step };
+            let between = |(start, (p, end)): (&f64, &(usize, f64))| {
+                // The end is met to the last bit.
+                (*p, if next == 1.0 { *end } else { start + next * (end - start) })
+            };
+            let there: Vec<(usize, f64)> = start.iter().zip(values).map(between).collect();
+            let kept = self.prepared.clone();
+            self.put(&there)?;
+            let outcome = self.stands.then(|| self.prepared.solve_near_here(self.tolerance));
+            match outcome.filter(|outcome| outcome.status == Status::Converged) {
+                Some(outcome) if next == 1.0 => return Ok(Some(outcome)),
+                Some(_) => (part, step) = (next, 2.0 * step),
+                None => {
+                    self.prepared = kept;
+                    self.stands = true;
+                    step *= 0.5;
+                    if step < SHORTEST {
+                        break;
+                    }
+                }
+            }
+        }
+        Ok(None)
     }
 }

@@ -8,6 +8,7 @@ pub mod examples;
 pub mod fit;
 pub mod formula;
 pub mod motion;
+pub mod optimise;
 pub mod run;
 pub mod schema;
 pub mod solve;

@@ -1,6 +1,8 @@
 //! `flexura run FILE [STUDY]`
 
-use super::{buckle, file_failure, fit, formula, motion, solve, trace, warn_about, warn_of_outputs};
+use super::{
+    buckle, file_failure, fit, formula, motion, optimise, solve, trace, warn_about, warn_of_outputs,
+};
 use crate::answer::{Answer, StudyDocument, Task, json};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
@@ -118,6 +120,7 @@ fn answer(task: &Task, study: &Study, folder: Option<&Path>) -> Result<Answer, F
         StudyKind::InverseDynamics(motion) => motion::study(task, &study.name, motion),
         StudyKind::Fit(fit) => fit::study(task, &study.name, fit),
         StudyKind::Formula(formula) => formula::study(task, &study.name, formula),
+        StudyKind::Optimise(design) => optimise::study(task, &study.name, design),
     }
 }
 

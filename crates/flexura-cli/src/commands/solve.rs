@@ -176,5 +176,6 @@ fn advice(status: Status) -> &'static str {
         Status::Inconsistent => "its joints cannot all be kept; free one, or correct their places and axes",
         Status::AccuracyLimit => "double precision gives no more here; try a larger --tolerance",
         Status::Interrupted => "it was ended before the equilibrium was found",
+        Status::Infeasible => "no design meets what is asked; loosen a constraint",
     }
 }

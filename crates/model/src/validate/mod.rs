@@ -5,6 +5,7 @@ use flexura_spatial::{Matrix3, Pose, Vector3};
 use std::fmt::Display;
 
 mod beam;
+mod design;
 mod doubts;
 mod fit;
 mod foundation;

@@ -30,6 +30,7 @@ impl Model {
                 self.check_forward(&path, "repeated by a formula", &mut issues);
                 self.check_formula(formula, &path, &mut issues);
             }
+            StudyKind::Optimise(study) => self.check_design(study, &path, &mut issues),
         }
         issues.0
     }
@@ -42,7 +43,7 @@ impl Model {
     }
 
     /// An unknown parameter is found anew by every solve, so nothing can be followed beside it.
-    fn check_forward(&self, path: &str, what: &str, issues: &mut Issues) {
+    pub(super) fn check_forward(&self, path: &str, what: &str, issues: &mut Issues) {
         let unknown = self.unknowns.first().and_then(|unknown| self.parameters.get(unknown.parameter));
         if unknown.is_none() && self.targets.is_empty() {
             return;

@@ -6,6 +6,7 @@ mod cable;
 mod contact;
 mod coupling;
 mod curve;
+mod design;
 mod fit;
 mod formula;
 mod foundation;

@@ -1,5 +1,6 @@
 //! Studies: what is to be done with the mechanism.
 
+use super::design::{self, Known};
 use super::result::{Built, event, live_outputs, stop};
 use super::{fit, formula, motion, name, named_entries, table_of};
 use crate::context::{Context, Needed, Read, Reported, suggest};
@@ -18,21 +19,25 @@ pub(super) fn studies(context: &Context<'_>, model: &Model, outputs: &[Built]) -
         return Vec::new();
     }
     let outputs = live_outputs(context, model, outputs);
+    // Others may refer to a path.
+    let (paths, rest): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| is_trace(entry));
     let mut studies = Vec::new();
-    for entry in entries {
+    for entry in paths.into_iter().chain(rest) {
         name(context, "study", entry);
-        studies.extend(study(context, entry, model, &outputs, &studies).ok());
+        studies.extend(study(context, entry, &Known { model, outputs: &outputs, studies: &studies }).ok());
     }
+    let place = |study: &Study| entries.iter().position(|entry| entry.key == study.name);
+    studies.sort_by_key(place);
     studies
 }
 
-fn study(
-    context: &Context<'_>,
-    entry: &Entry,
-    model: &Model,
-    outputs: &[Built],
-    before: &[Study],
-) -> Read<Study> {
+fn is_trace(entry: &Entry) -> bool {
+    let kind = entry.node.get("kind").map(|kind| &kind.node.value);
+    matches!(kind, Some(Value::Text(text)) if text == "trace")
+}
+
+fn study(context: &Context<'_>, entry: &Entry, known: &Known<'_>) -> Read<Study> {
+    let Known { model, outputs, .. } = *known;
     let path = format!("study.{}", entry.key);
     let reader = Reader::open(context, entry, table_of("study").ok_or(Reported)?, &path)?;
     let kind = match reader.variant {
@@ -41,12 +46,14 @@ fn study(
         "inverse_dynamics" => StudyKind::InverseDynamics(motion::inverse_dynamics(&reader, model)?),
         "fit" => StudyKind::Fit(fit::fit(&reader, model, outputs)?),
         "formula" => {
-            let traces: Vec<(&str, bool)> = before
+            let traces: Vec<(&str, bool)> = known
+                .studies
                 .iter()
                 .map(|study| (study.name.as_str(), matches!(study.kind, StudyKind::Trace(_))))
                 .collect();
             StudyKind::Formula(formula::formula(&reader, model, outputs, &traces)?)
         }
+        "optimise" => StudyKind::Optimise(design::optimise(&reader, known)?),
         _ => StudyKind::Solve,
     };
     Ok(Study { name: entry.key.clone(), kind })
@@ -168,7 +175,7 @@ pub(super) fn number(reader: &Reader<'_, '_>, key: &str, parameter: Option<&Para
     value(reader, &entry.node, &reader.key_path(key), parameter).map(Some)
 }
 
-fn range(reader: &Reader<'_, '_>, parameter: Option<&Parameter>) -> Read<Option<[f64; 2]>> {
+pub(super) fn range(reader: &Reader<'_, '_>, parameter: Option<&Parameter>) -> Read<Option<[f64; 2]>> {
     let Some((entry, key)) = reader.entry("range") else { return Ok(None) };
     let path = reader.key_path("range");
     let list = reader.list_of(&entry.node, &path, key, 2)?;

@@ -5,6 +5,7 @@
 
 mod attachments;
 mod contacts;
+mod design;
 mod fit;
 mod foundation;
 mod joints;
@@ -158,6 +159,8 @@ pub(crate) enum Shape {
     Unknowns(&'static Table),
     /// A table of values, named by expressions over results.
     NamedTargets,
+    /// A formula over results, or a table that says where it is read.
+    Reading(&'static Table),
     /// The name of a parameter.
     Parameter,
     /// A whole number that is not negative.
@@ -214,6 +217,7 @@ impl Shape {
             Shape::Table(table)
             | Shape::Tables(table)
             | Shape::Placed(table)
+            | Shape::Reading(table)
             | Shape::NamedTables(table)
             | Shape::Data(table)
             | Shape::Unknowns(table) => Some(table),
@@ -272,6 +276,7 @@ impl Shape {
             Shape::Repeat => "indices, each with a count or its first and last value".into(),
             Shape::Unknowns(_) => "named tables".into(),
             Shape::NamedTargets => "numbers, named by expressions over results".into(),
+            Shape::Reading(_) => "a formula over results, or a table".into(),
             Shape::Parameter => "the name of a parameter".into(),
             Shape::Count => "a whole number".into(),
             Shape::FlagOrCount => "true, false or a whole number".into(),

@@ -1,5 +1,6 @@
 //! The tables of studies.
 
+use super::design::OPTIMISE;
 use super::fit::{FIT, FORMULA};
 use super::motion::MOTION;
 use super::tables::{key, table, variant};
@@ -127,6 +128,11 @@ pub(crate) static STUDY: Table = Table {
                 "formula",
                 "A polynomial that repeats an output over a trace or a grid, for the controller of a robot; `flexura formula` writes it as TOML, CSV, C or Rust.",
                 &FORMULA,
+            ),
+            variant(
+                "optimise",
+                "Parameters that make an objective least or greatest, under bounds and constraints.",
+                &OPTIMISE,
             ),
         ],
     }),

@@ -5,6 +5,7 @@
 //! is made of; what nothing follows is written by the shortest keys that there are. Not kept: comments, the units of plain
 //! numbers, `repeat` (its copies are written out), and points that came from a file beside (they stand in the text).
 
+mod design;
 mod fit;
 mod results;
 mod shapes;

@@ -58,7 +58,7 @@ impl Writer<'_> {
     fn probe(&self, probe: &Probe, is_vector: bool) -> Option<String> {
         let model = self.model;
         let place = match probe.target {
-            ProbeTarget::Beam(beam, _) if probe.quantity == Quantity::FoundationForce => {
+            ProbeTarget::Beam(beam, _) if probe.quantity.is_of_whole_beam() => {
                 format!("beam.{}", quoted(&model[beam].name))
             }
             ProbeTarget::Beam(beam, at) => {

@@ -18,6 +18,7 @@ impl Writer<'_> {
                 StudyKind::InverseDynamics(motion) => self.motion(motion, &mut table),
                 StudyKind::Fit(fit) => self.fit(fit, &mut table),
                 StudyKind::Formula(formula) => self.formula(formula, &mut table),
+                StudyKind::Optimise(design) => self.design(design, &mut table),
             }
             text.push_str(&table.section("study", &study.name));
         }

@@ -49,7 +49,7 @@ struct Run {
 
 fn pictures(document: &Value, make: &mut Make<'_>) -> Result<Vec<String>, ReadError> {
     match document.get("study").and_then(Value::as_str) {
-        Some("solve") => states::solve(document, make),
+        Some("solve" | "optimise") => states::solve(document, make),
         Some("trace") => paths::trace(document, make),
         Some("buckle") => states::buckle(document, make),
         Some("inverse_dynamics") => motions::motion(document, make),

@@ -2,12 +2,14 @@
 
 mod event;
 mod readable;
+mod reading;
 mod target;
 mod walk;
 
 pub(super) use event::{event, stop};
 pub(crate) use readable::name_of;
 pub(super) use readable::{Part, coordinates};
+pub(super) use reading::reading;
 pub(super) use target::targets;
 pub(super) use walk::Walk;
 
@@ -214,7 +216,7 @@ impl Results<'_, '_> {
         };
         match named {
             Named::Beam => {
-                let whole = walk.is_next("foundation_force");
+                let whole = of_whole_beam().iter().any(|readable| walk.is_next(readable.name));
                 let (at, list) = if whole {
                     (At::Fraction(0.0), of_whole_beam())
                 } else {

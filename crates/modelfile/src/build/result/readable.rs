@@ -80,7 +80,13 @@ pub(super) fn of_beam() -> Vec<Readable> {
 
 /// Of a beam as a whole.
 pub(super) fn of_whole_beam() -> Vec<Readable> {
-    vec![vector("foundation_force", Quantity::FoundationForce, Dimension::FORCE)]
+    vec![
+        vector("foundation_force", Quantity::FoundationForce, Dimension::FORCE),
+        number("max_stress", Quantity::MaxStress, Dimension::PRESSURE),
+        number("max_strain", Quantity::MaxStrain, Dimension::NUMBER),
+        number("min_safety", Quantity::MinSafety, Dimension::NUMBER),
+        number("mass", Quantity::Mass, Dimension::MASS),
+    ]
 }
 
 pub(super) fn of_body() -> Vec<Readable> {
@@ -243,14 +249,17 @@ pub(super) fn of_tubes() -> Vec<Readable> {
 }
 
 pub(super) fn of_model() -> Vec<Readable> {
-    vec![number("energy", Quantity::Energy, Dimension::MOMENT)]
+    vec![
+        number("energy", Quantity::Energy, Dimension::MOMENT),
+        number("mass", Quantity::Mass, Dimension::MASS),
+    ]
 }
 
 /// The name of what a probe reads behind the thing that it reads it off, such as `position.x`; of the whole vector where one is
 /// wanted.
 pub(crate) fn name_of(probe: &Probe, law: Option<&JointLaw>, is_vector: bool) -> Option<String> {
     let list = match (probe.target, law) {
-        (ProbeTarget::Beam(..), _) if probe.quantity == Quantity::FoundationForce => of_whole_beam(),
+        (ProbeTarget::Beam(..), _) if probe.quantity.is_of_whole_beam() => of_whole_beam(),
         (ProbeTarget::Beam(..), _) => of_beam(),
         (ProbeTarget::Body(_), _) => of_body(),
         (ProbeTarget::Joint(_), law) => of_joint(law?),
