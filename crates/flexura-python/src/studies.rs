@@ -5,9 +5,10 @@ use crate::solved::{Request, Solved};
 use flexura::model::{Model, Study as Described, StudyKind};
 use flexura::modelfile::to_toml;
 use flexura::output::{
-    FitView, FormulaView, OptimisationHead, TraceView, critical_csv, diagram_svg, fit_csv, fit_document, fit_svg, formula_c,
-    formula_csv, formula_document, formula_rust, formula_svg, formula_toml, front_csv, history_csv, modes_csv, modes_svg, motion_csv,
-    motion_document, motion_svg, path_csv, shape_svg, shapes_svg, to_json, trace_document,
+    FitView, FormulaView, OptimisationHead, TraceView, critical_csv, diagram_svg, fit_csv, fit_document,
+    fit_svg, formula_c, formula_csv, formula_document, formula_rust, formula_svg, formula_toml, front_csv,
+    history_csv, modes_csv, modes_svg, motion_csv, motion_document, motion_svg, path_csv, shape_svg,
+    shapes_svg, to_json, trace_document,
 };
 use flexura::solution::Status;
 use flexura::{Buckled, Optimised, Options, motion_view, solve_model};
