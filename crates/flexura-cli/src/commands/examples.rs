@@ -84,6 +84,10 @@ const MODELS: &[(&str, &str)] = &bundled![
     "rigid_four_bar",
     "six_rod_robot",
     "universal_shaft",
+    "lightest_cantilever",
+    "thinnest_clamp",
+    "bistable_design",
+    "robot_tilt",
 ];
 
 pub fn run(arguments: &ExamplesArguments) -> Result<(), Failure> {

@@ -21,10 +21,9 @@ pub(in crate::build) fn reading(
     let results = Results { context, model, outputs: Some(outputs), is_live: true, may_be_infinite: false };
     let name = text.trim();
     let built = match outputs.iter().find(|built| built.output.name == name) {
-        Some(known) if !context.parameters.contains_key(name) => {
-            let mut built = known.clone();
-            built.output.name = format!("output.{name}");
-            built
+        Some(_) if !context.parameters.contains_key(name) => {
+            let text = format!("output.{name}");
+            results.read(node, path, &text, text.clone())?
         }
         _ => results.read(node, path, text, name.to_string())?,
     };
