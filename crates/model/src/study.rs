@@ -13,6 +13,7 @@ pub struct Study {
 
 /// Kinds of studies.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "a model has a handful of studies")]
 pub enum StudyKind {
     /// The equilibrium, forward or inverse.
     Solve,
