@@ -85,7 +85,8 @@ impl<'s, 'm> Search<'s, 'm> {
             problem.borrow().designs.is_interrupted()
         });
         for u in shown {
-            if let Some(design) = self.problem.borrow_mut().judge(&u) {
+            let design = self.problem.borrow_mut().judge(&u);
+            if let Some(design) = design {
                 self.note(&design);
             }
         }

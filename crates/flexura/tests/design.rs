@@ -83,7 +83,9 @@ fn the_front_of_mass_and_sag_has_the_product_of_small_deflections() {
     assert_eq!(front.len(), 9);
     let product = (7800.0_f64 * 0.02 * 0.2).powi(3) * 4.0 * 0.125 * 0.2_f64.powi(3) / (200e9 * 0.02);
     for point in front {
-        close(point.objective.powi(3) * point.other.unwrap(), product, 1e-5);
+        // The theory neglects (w/L)² beside one.
+        let neglected = 2.0 * (point.other.unwrap() / 0.2).powi(2);
+        close(point.objective.powi(3) * point.other.unwrap(), product, 1e-6 + neglected);
     }
     let sag = |i: usize| front[i].other.unwrap();
     for i in 1..9 {
@@ -110,19 +112,19 @@ fn a_published_problem_has_its_published_optimum() {
     close(best.objective, 17.0140173, 1e-8);
 }
 
-const ROUGH: &str = "minimise = \"(a - 0.3)^2 + (b - 0.2)^2 - 0.1*cos(20*(a - 0.3)) - 0.1*cos(20*(b - 0.2))\"\n\
+const ROUGH: &str = "minimise = \"(a - 0.3)^2 + (b - 0.2)^2 - 0.2*cos(20*(a - 0.3)) - 0.2*cos(20*(b - 0.2))\"\n\
                      vary = { a = { range = [-1, 1] }, b = { range = [-1, 1] } }\n";
 
-/// The waves have a minimum about every 0.31; the lowest is where their hills are, (0.3, 0.2), and is -0.2.
+/// The waves have a minimum about every 0.31; the lowest is (0.3, 0.2), where the objective is -0.4.
 #[test]
 fn many_starts_and_evolution_find_the_lowest_of_many_minima() {
     let one = of_formula("a = -0.9\nb = 0.9", ROUGH);
-    assert!(best(&one).objective > -0.19, "the first start already finds the lowest");
-    for further in ["starts = 40", "method = \"cma_es\"\nseed = 3"] {
+    assert!(best(&one).objective > -0.39, "the first start already finds the lowest");
+    for further in ["starts = 100", "method = \"cma_es\"\nseed = 3"] {
         let optimised = of_formula("a = -0.9\nb = 0.9", &format!("{ROUGH}{further}"));
         let best = best(&optimised);
         assert!((best.values[0] - 0.3).abs() < 1e-6 && (best.values[1] - 0.2).abs() < 1e-6, "{best:?}");
-        close(best.objective, -0.2, 1e-9);
+        close(best.objective, -0.4, 1e-9);
     }
 }
 
@@ -206,7 +208,7 @@ fn outputs(model: &Model, values: &[(&str, f64)]) -> Option<Vec<f64>> {
 
 /// Where a function changes from negative to positive.
 fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
-    for _ in 0..18 {
+    for _ in 0..15 {
         let middle = 0.5 * (low + high);
         if f(middle) < 0.0 { low = middle } else { high = middle }
     }
