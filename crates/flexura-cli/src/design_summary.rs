@@ -1,6 +1,6 @@
 //! What a person reads after an optimisation.
 
-use crate::quantity::{quantity, size};
+use crate::quantity::{number, quantity, size};
 use crate::screen::{BAD, DIM, GOOD, styled, title};
 use crate::table::Table;
 use flexura::Optimised;
@@ -73,7 +73,7 @@ fn held(optimised: &Optimised, best: &Design, bounds: &[Bound], unit: &str) -> V
             if is_one_word { format!("{over}/{under}") } else { format!("{over}/({under})") }
         }
     };
-    vec![end, format!("{:.4e} {unit}", active.rate).trim_end().to_owned()]
+    vec![end, format!("{} {unit}", number(active.rate, 5)).trim_end().to_owned()]
 }
 
 fn results(optimised: &Optimised, best: &Design) -> String {
