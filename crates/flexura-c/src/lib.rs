@@ -29,7 +29,8 @@ fn code(status: &SampleStatus) -> c_int {
         SampleStatus::Solved(Status::Stalled) => 1,
         SampleStatus::Solved(Status::IterationLimit) => 2,
         SampleStatus::Solved(Status::Singular) => 3,
-        SampleStatus::Solved(Status::Inconsistent) => 4,
+        // No solve ends as infeasible, only a search among designs.
+        SampleStatus::Solved(Status::Inconsistent | Status::Infeasible) => 4,
         SampleStatus::Solved(Status::AccuracyLimit) => 5,
         SampleStatus::Solved(Status::Interrupted) => 6,
         SampleStatus::InputError => INPUT_ERROR,
