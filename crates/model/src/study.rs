@@ -12,7 +12,6 @@ pub struct Study {
 }
 
 /// Kinds of studies.
-#[allow(clippy::large_enum_variant, reason = "a model has a few of them, and each is matched once")]
 #[derive(Clone, Debug, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "a model has a handful of studies")]
 pub enum StudyKind {
