@@ -26,7 +26,7 @@ from .model import Check, Model, Quantity, load, loads
 from .records import Named, Record
 from .result import Beam, Body, Page, Result
 from .stepper import Step, Stepper
-from .studies import Branch, Buckling, Motion, Optimum, Path, Study
+from .studies import Branch, Buckling, Frequencies, Modes, Motion, Optimum, Path, Study
 from .sweep import Explanation, Sweep, sweep
 
 __all__ = [
@@ -40,12 +40,14 @@ __all__ = [
     "Fit",
     "FlexuraError",
     "Formula",
+    "Frequencies",
     "Handle",
     "Model",
     "ModelError",
+    "Modes",
     "Motion",
-    "Optimum",
     "Named",
+    "Optimum",
     "Page",
     "Path",
     "Problem",

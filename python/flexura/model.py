@@ -18,7 +18,7 @@ from ._references import Handle, text_of
 from .errors import ConvergenceError, ModelError, StudyError
 from .result import Result
 from .fitting import Fit, ResponseFormula
-from .studies import Buckling, Motion, Optimum, Path, Study
+from .studies import Buckling, Frequencies, Modes, Motion, Optimum, Path, Study
 
 if TYPE_CHECKING:
     from ._tables import Tables
@@ -81,6 +81,8 @@ def _named_tables() -> Mapping[str, bool]:
 _KINDS: dict[str, type[Study]] = {
     "trace": Path,
     "buckle": Buckling,
+    "modes": Modes,
+    "frequencies": Frequencies,
     "inverse_dynamics": Motion,
     "optimise": Optimum,
     "fit": Fit,
@@ -438,6 +440,42 @@ class Model(Tables):
         study = {"kind": "buckle", "parameter": None if parameter is None else str(parameter), **keys}
         found = self.run(study, parameters, tolerance=tolerance, check=check)
         assert isinstance(found, Buckling)
+        return found
+
+    def modes(
+        self,
+        count: int = 6,
+        /,
+        *,
+        at_rest: bool = False,
+        parameters: Mapping[str, Any] | None = None,
+        tolerance: float = 1e-8,
+        check: bool = True,
+        **keys: Any,
+    ) -> Modes:
+        """Natural frequencies and shapes about the equilibrium, or about the state at rest without any load."""
+        study = {"kind": "modes", "count": count, "at_rest": at_rest, **keys}
+        found = self.run(study, parameters, tolerance=tolerance, check=check)
+        assert isinstance(found, Modes)
+        return found
+
+    def frequencies(
+        self,
+        parameter: Any,
+        start: Any,
+        end: Any,
+        /,
+        *,
+        count: int = 6,
+        parameters: Mapping[str, Any] | None = None,
+        tolerance: float = 1e-8,
+        check: bool = True,
+        **keys: Any,
+    ) -> Frequencies:
+        """Natural frequencies along the path of equilibria from one value of a parameter to another, followed by their shapes."""
+        study = {"kind": "modes", "count": count, "parameter": str(parameter), "range": [start, end], **keys}
+        found = self.run(study, parameters, tolerance=tolerance, check=check)
+        assert isinstance(found, Frequencies)
         return found
 
     def inverse_dynamics(

@@ -237,6 +237,84 @@ class Optimum(Study):
         return f"<flexura.Optimum {self.model.name!r}: {self.status}, {self.objective:.6g} at {values}>"
 
 
+class Modes(Study):
+    """Natural modes about an equilibrium, or about the state at rest."""
+
+    @property
+    def modes(self) -> list[Record]:
+        """The modes, lowest first: ``kind``, ``frequency_hz``, ``rate``, ``growth``, masses and shapes."""
+        return list(self.document["modes"])
+
+    @cached_property
+    def frequencies(self) -> Array:
+        """Natural frequencies, Hz: zero of motions without stiffness, not a number of modes that grow without swinging."""
+        return np.array([np.nan if (own := mode["frequency_hz"]) is None else own for mode in self.modes], dtype=float)
+
+    @cached_property
+    def growth(self) -> Array:
+        """By which rate each mode grows, 1/s."""
+        return np.array([mode["growth"] for mode in self.modes], dtype=float)
+
+    @cached_property
+    def effective_masses(self) -> Array:
+        """Effective masses (n, 6): of shifts along x, y, z (kg) and of turnings about them (kg·m²)."""
+        none = [np.nan] * 6
+        return np.array([mode["effective_mass"] or none for mode in self.modes], dtype=float).reshape(-1, 6)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each mode."""
+        import io
+
+        import pandas
+
+        return pandas.read_csv(io.StringIO(self.files["modes.csv"]))
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{value:.6g}" for value in self.frequencies)
+        return f"<flexura.Modes {self.model.name!r}: {self.status}, {values} Hz>"
+
+
+class Frequencies(Study):
+    """Natural frequencies along a path of equilibria, each followed by its shape."""
+
+    @property
+    def parameter(self) -> str:
+        """The parameter that changes."""
+        return str(self.document["parameter"])
+
+    def values(self, branch: int = 0) -> Array:
+        """The parameter at the points of a branch (n,)."""
+        return np.array([point["parameter"] for point in self.document["branches"][branch]["points"]], dtype=float)
+
+    def frequencies(self, branch: int = 0) -> Array:
+        """Frequencies (n, modes), Hz; not a number where a mode is not among the lowest, or where the point is critical."""
+        return self._each(branch, "rate") / (2 * np.pi)
+
+    def growth(self, branch: int = 0) -> Array:
+        """By which rate modes grow (n, modes), 1/s."""
+        return self._each(branch, "growth")
+
+    def _each(self, branch: int, key: str) -> Array:
+        points = self.document["branches"][branch]["points"]
+        table = np.full((len(points), max((len(point["modes"]) for point in points), default=0)), np.nan)
+        for i, point in enumerate(points):
+            for k, mode in enumerate(point["modes"]):
+                table[i, k] = np.nan if mode is None else mode[key]
+        return table
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each point of each branch."""
+        import io
+
+        import pandas
+
+        return pandas.read_csv(io.StringIO(self.files["frequencies.csv"]))
+
+    def __repr__(self) -> str:
+        points = sum(len(branch["points"]) for branch in self.document["branches"])
+        return f"<flexura.Frequencies {self.model.name!r} in {self.parameter}: {self.status}, {points} points>"
+
+
 class Motion(Study):
     """A motion in time, and the forces that it takes."""
 

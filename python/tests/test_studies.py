@@ -66,6 +66,19 @@ def test_critical_loads_are_eulers() -> None:
     assert "critical at" in repr(found) and len(found.modes) == 2
 
 
+def test_natural_frequencies_are_those_of_a_bar() -> None:
+    m = column()
+    m.set("section.rod.mass_per_length", 1.0)
+    found = m.modes(4, at_rest=True)
+    # (βL)² √(EI/ρA L⁴), about e2 and about e3.
+    beta = np.array([1.875104068711961, 4.694091132974175])
+    wanted = np.sort(np.concatenate([beta**2, beta**2 * np.sqrt(2.0)])) / (2 * np.pi)
+    assert found.frequencies == pytest.approx(wanted, rel=1e-9)
+    assert np.all(found.growth == 0) and found.effective_masses.shape == (4, 6)
+    assert list(found.to_pandas()["kind"]) == ["swinging"] * 4
+    assert "Hz" in repr(found)
+
+
 def test_branches_are_followed() -> None:
     path = column().trace("push", 0, 4, branches=1)
     assert path.branch_points[0].parameter == pytest.approx(np.pi**2 / 4, rel=1e-8)

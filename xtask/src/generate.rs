@@ -40,6 +40,7 @@ const VERBS: &[&str] = &[
     "fit",
     "formula",
     "optimise",
+    "modes",
     "run",
     "sweep",
     "check",

@@ -4,7 +4,9 @@ use crate::error::ProblemError;
 use crate::extract::GAUSS;
 use crate::foundation::Founded;
 use crate::scale::Scale;
-use flexura_geometry::{Compliance, RestShape, compliance, is_uniform, mass_per_length, section_breaks};
+use flexura_geometry::{
+    Compliance, RestShape, compliance, is_uniform, mass_per_length, rotary_inertia, section_breaks,
+};
 use flexura_mechanics::ode::{NODES, STAGES};
 use flexura_mechanics::rod::{Coupled, LawTable, LoadSample, Piece, Shearable, Slender};
 use flexura_model::{Beam, BeamId, LoadAxes, Material, Model, Profile, Section};
@@ -359,6 +361,15 @@ impl BeamLaw {
             }
         }
         sample
+    }
+
+    /// Mass per length (kg/m) and moments of inertia per length about the section's axes (kg·m) at `s`; NaN where an expression
+    /// gives no sound section.
+    pub fn mass_at(&self, s: f64) -> (f64, [f64; 3]) {
+        let (section, material) = (&self.section, self.material.as_ref());
+        let mass = mass_per_length(section, material, s, self.length).unwrap_or(f64::NAN);
+        let rotary = rotary_inertia(section, material, s, self.length).unwrap_or([f64::NAN; 3]);
+        (mass, rotary)
     }
 
     /// The law at `s`, nondimensional.

@@ -159,6 +159,17 @@ impl BeamLaw {
         })
     }
 
+    /// Stiffness of the foundations at `s` (m), the axis being at `position`; both nondimensional, global axes.
+    pub fn foundation_slope(&self, s: f64, position: &V) -> Matrix3<f64> {
+        if self.founded.is_empty() {
+            return Matrix3::zeros();
+        }
+        let moved = position * self.scale.length - self.place(s).position;
+        let each = self.pushes(s, &moved).into_iter();
+        each.map(|push| push.direction * push.direction.transpose() * (push.slope * self.foundation_unit()))
+            .sum()
+    }
+
     /// Nondimensional stiffness of 1 N/m².
     fn foundation_unit(&self) -> f64 {
         self.scale.length * self.scale.length / self.scale.force

@@ -17,7 +17,7 @@
 //! - `tangents`: compliances and motions; `neighbour`: other numbers under the same state; `stand`: an earlier result as state;
 //! - `footing`: what holds the mechanism at rest; `regime`: where laws change their form;
 //! - `moving`: what a motion of rigid parts asks;
-//! - `stability`: how many directions an equilibrium is unstable in;
+//! - `stability`: how many directions an equilibrium is unstable in; `vibration`: its stiffness and inertia;
 //! - `extract` and `samples`: the solution.
 
 mod accuracy;
@@ -57,6 +57,7 @@ mod tangents;
 mod tests;
 mod touch;
 mod tubes;
+mod vibration;
 
 pub use moving::Mover;
 pub use neighbour::Law;
@@ -70,3 +71,4 @@ pub use footing::Footing;
 pub use regime::Edge;
 pub use stability::{Rate, Stability, Variation};
 pub use system::{Counts, Equilibrium};
+pub use vibration::{Detail, Swing, Vibration};

@@ -19,6 +19,7 @@ pub(crate) fn section(name: &str, factor: f64) -> Section {
             ga2: Some(p(90.0)),
             ga3: Some(p(70.0)),
             mass_per_length: Some(Profile::Constant(0.1)),
+            rotary_inertia: None,
         },
         plane_strain: false,
     }
@@ -220,6 +221,7 @@ fn add_tubes(m: &mut Model) {
             ga2: None,
             ga3: None,
             mass_per_length: None,
+            rotary_inertia: None,
         },
         plane_strain: false,
     };

@@ -38,6 +38,7 @@ named! {
     TWIST_RATE = (-1, 0, 0, 0, 1), "a curvature", "rad/m";
     MASS = (0, 1, 0, 0, 0), "a mass", "kg";
     MASS_PER_LENGTH = (-1, 1, 0, 0, 0), "a mass per length", "kg/m";
+    ROTARY_INERTIA = (1, 1, 0, 0, 0), "a moment of inertia per length", "kg*m";
     DENSITY = (-3, 1, 0, 0, 0), "a density", "kg/m^3";
     INERTIA = (2, 1, 0, 0, 0), "a moment of inertia", "kg*m^2";
     TIME = (0, 0, 1, 0, 0), "a time", "s";

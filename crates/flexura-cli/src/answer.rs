@@ -11,8 +11,8 @@ use flexura::Options;
 use flexura::model::{Model, visible};
 use flexura::modelfile::Document;
 use flexura::output::{
-    self, BucklingDocument, FitDocument, FormulaDocument, InverseDynamicsDocument, OptimisationDocument,
-    OptimisationHead, SceneDocument, TraceDocument, to_json,
+    self, BucklingDocument, FitDocument, FormulaDocument, FrequenciesDocument, InverseDynamicsDocument,
+    ModesDocument, OptimisationDocument, OptimisationHead, SceneDocument, TraceDocument, to_json,
 };
 use flexura::post::PostError;
 use serde::Serialize;
@@ -184,6 +184,8 @@ pub enum StudyDocument {
     Solve(Box<output::Document>),
     Trace(Box<TraceDocument>),
     Buckling(Box<BucklingDocument>),
+    Modes(Box<ModesDocument>),
+    Frequencies(Box<FrequenciesDocument>),
     InverseDynamics(Box<InverseDynamicsDocument>),
     Fit(Box<FitDocument>),
     Formula(Box<FormulaDocument>),
@@ -201,7 +203,7 @@ struct Written<'a> {
 impl StudyDocument {
     /// Has it states of the mechanism, which a page can show?
     pub fn has_page(&self) -> bool {
-        !matches!(self, StudyDocument::Fit(_) | StudyDocument::Formula(_))
+        !matches!(self, StudyDocument::Frequencies(_) | StudyDocument::Fit(_) | StudyDocument::Formula(_))
     }
 
     /// What there is to draw.
@@ -210,8 +212,9 @@ impl StudyDocument {
             StudyDocument::Solve(document) => Some(&mut document.scene),
             StudyDocument::Trace(document) => document.scene.as_mut(),
             StudyDocument::Buckling(document) => Some(&mut document.scene),
+            StudyDocument::Modes(document) => Some(&mut document.scene),
             StudyDocument::InverseDynamics(document) => document.scene.as_mut(),
-            StudyDocument::Fit(_) | StudyDocument::Formula(_) => None,
+            StudyDocument::Frequencies(_) | StudyDocument::Fit(_) | StudyDocument::Formula(_) => None,
             StudyDocument::Optimise(document) => match &mut document.head {
                 OptimisationHead::Solved(state) => Some(&mut state.scene),
                 OptimisationHead::Empty { .. } => None,

@@ -30,6 +30,8 @@ pub enum Command {
     Formula(FormulaArguments),
     /// Choose parameters so that an objective is least or greatest under constraints
     Optimise(OptimiseArguments),
+    /// Find natural frequencies and the shapes in which the mechanism swings
+    Modes(ModesArguments),
     /// Do the studies that are written in the file
     Run(RunArguments),
     /// Solve over a grid of parameters, on all cores, into one table
@@ -262,6 +264,35 @@ pub struct OptimiseArguments {
     #[arg(long, short = 'o', value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Wanted accuracy, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
+    #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub shown: ShownArguments,
+}
+
+#[derive(Args)]
+pub struct ModesArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// How many modes, the lowest first [default: 6]
+    #[arg(long, value_name = "N")]
+    pub count: Option<String>,
+    /// About the state at rest without any load, in place of the equilibrium
+    #[arg(long)]
+    pub at_rest: bool,
+    /// Follow the frequencies along the path of equilibria as this parameter changes
+    #[arg(long, value_name = "P", requires = "range")]
+    pub parameter: Option<String>,
+    /// Values between which it changes, with units: "0 N:40 N"; the first may be the larger
+    #[arg(long, value_name = "A:B", requires = "parameter", allow_hyphen_values = true)]
+    pub range: Option<String>,
+    /// About how many points the path has at least [default: 40]
+    #[arg(long, value_name = "N", requires = "parameter")]
+    pub steps: Option<String>,
+    /// Write result.json, modes.csv, shapes.svg and report.html into this folder; along a path frequencies.csv and frequencies.svg
+    #[arg(long, short = 'o', value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Wanted accuracy of the equilibrium, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     #[command(flatten)]

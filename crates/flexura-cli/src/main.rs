@@ -13,7 +13,9 @@ mod failure;
 mod files;
 mod fit_summary;
 mod formula_summary;
+mod frequencies_summary;
 mod interrupt;
+mod modes_summary;
 mod motion_summary;
 mod page;
 mod progress;
@@ -47,6 +49,7 @@ fn main() -> ExitCode {
         Command::Fit(arguments) => commands::fit::run(&arguments),
         Command::Formula(arguments) => commands::formula::run(&arguments),
         Command::Optimise(arguments) => commands::optimise::run(&arguments),
+        Command::Modes(arguments) => commands::modes::run(&arguments),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),

@@ -40,7 +40,7 @@ fn an_override_without_a_value_is_refused() {
 
 #[test]
 fn a_file_that_is_not_there_leaves_standard_output_empty() {
-    for verb in ["solve", "check", "sweep", "trace", "buckle", "run"] {
+    for verb in ["solve", "check", "sweep", "trace", "buckle", "modes", "run"] {
         let more: &[&str] = match verb {
             "sweep" => &["--vary", "force=1,2"],
             "trace" => &["--parameter", "force", "--range", "0:1"],

@@ -104,3 +104,8 @@ fn what_cannot_buckle_is_said_to() {
         assert!(stdout(&output).contains("no critical value was found"), "{file}: {}", stdout(&output));
     }
 }
+
+#[test]
+fn modes_answers() {
+    each("modes", |_| Some(vec!["--count".into(), "3".into()]));
+}

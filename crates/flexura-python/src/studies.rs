@@ -2,16 +2,17 @@
 
 use crate::errors::{Wrong, bug};
 use crate::solved::{Request, Solved};
-use flexura::model::{Model, Study as Described, StudyKind};
+use flexura::model::{Model, ModesPath, Study as Described, StudyKind};
 use flexura::modelfile::to_toml;
 use flexura::output::{
     FitView, FormulaView, OptimisationHead, TraceView, critical_csv, diagram_svg, fit_csv, fit_document,
-    fit_svg, formula_c, formula_csv, formula_document, formula_rust, formula_svg, formula_toml, front_csv,
-    history_csv, modes_csv, modes_svg, motion_csv, motion_document, motion_svg, path_csv, shape_svg,
-    shapes_svg, to_json, trace_document,
+    fit_svg, formula_c, formula_csv, formula_document, formula_rust, formula_svg, formula_toml, frequencies_csv,
+    frequencies_document, frequencies_svg, front_csv, history_csv, modes_csv, modes_svg, motion_csv,
+    motion_document, motion_svg, path_csv, shape_svg, shapes_svg, to_json, trace_document, vibration_csv,
+    vibration_svg,
 };
 use flexura::solution::Status;
-use flexura::{Buckled, Optimised, Options, motion_view, solve_model};
+use flexura::{Buckled, Optimised, Options, Vibrated, motion_view, solve_model};
 use pyo3::prelude::*;
 
 /// What a study came to.
@@ -85,6 +86,30 @@ impl Study {
                 let mut files = vec![("modes.svg", modes_svg(&buckled.model, &buckled.buckling))];
                 files.extend(modes_csv(&model, &buckled.buckling).map(|table| ("modes.csv", table)));
                 let ended = Self::ended("buckle", solution.status, solution.reason.clone());
+                Self { document, files: named(files), ..ended }
+            }
+            StudyKind::Modes(modes) if modes.path.is_some() => {
+                let path = modes.path.unwrap_or(ModesPath { parameter: 0, range: [0.0, 1.0], steps: 1 });
+                let along =
+                    flexura::modes_along(&model, modes, path, options, &mut |_| {}).map_err(refused)?;
+                let document = frequencies_document(&model, &along);
+                let document = document.and_then(|document| to_json(&document)).ok();
+                let mut files = vec![("frequencies.svg", frequencies_svg(&model, &along))];
+                files.extend(frequencies_csv(&model, &along).map(|table| ("frequencies.csv", table)));
+                let ended = Self::ended("frequencies", along.trace.status, along.trace.reason.clone());
+                Self { document, files: named(files), ..ended }
+            }
+            StudyKind::Modes(modes) => {
+                let vibrated = Vibrated::new(&model, modes, options, &mut |_| {}).map_err(refused)?;
+                let solution = &vibrated.modes.solution;
+                let document = vibrated.document().map(|mut document| {
+                    document.scene.text = text();
+                    document
+                });
+                let document = document.and_then(|document| to_json(&document)).ok();
+                let mut files = vec![("shapes.svg", vibration_svg(&vibrated.model, &vibrated.modes))];
+                files.extend(vibration_csv(&vibrated.modes).map(|table| ("modes.csv", table)));
+                let ended = Self::ended("modes", solution.status, solution.reason.clone());
                 Self { document, files: named(files), ..ended }
             }
             StudyKind::InverseDynamics(motion) => {

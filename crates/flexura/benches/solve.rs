@@ -28,6 +28,7 @@ fn stiffness(ea: f64, gj: f64, ei: f64, ga: f64) -> Shape {
         ga2: Some(p(ga)),
         ga3: Some(p(ga)),
         mass_per_length: None,
+        rotary_inertia: None,
     }
 }
 

@@ -47,6 +47,7 @@
 //!         ga2: None,
 //!         ga3: None,
 //!         mass_per_length: None,
+//!         rotary_inertia: None,
 //!     },
 //!     plane_strain: false,
 //! });
@@ -143,7 +144,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A file may hold such studies itself: [`trace_file`] follows one of them, [`buckle_file`] finds critical loads,
+//! A file may hold such studies itself: [`trace_file`] follows one of them, [`buckle_file`] finds critical loads, [`modes_file`] natural modes,
 //! [`inverse_dynamics_file`] moves a rigid mechanism in time.
 //!
 //! # Results
@@ -154,6 +155,7 @@
 
 #[cfg(feature = "design")]
 mod design_file;
+mod modes_file;
 mod motion_file;
 mod places;
 mod solve_file;
@@ -165,6 +167,7 @@ mod trace_file;
 pub use design_file::{Optimised, optimise_file};
 #[cfg(feature = "design")]
 pub use flexura_design::{DesignProgress, optimise};
+pub use modes_file::{Vibrated, modes_file};
 pub use motion_file::{Moved, inverse_dynamics_file, motion_view};
 pub use places::place;
 pub use stepper::Stepper;
@@ -186,8 +189,8 @@ pub use flexura_spatial as spatial;
 pub use flexura_study::{
     Census, Equilibrium, Evaluation, Evaluator, Family, Interrupt, ModelFamily, MotionProgress, Options,
     Outcome, Prepared, ProblemError, Progress, SensitivityError, TraceProgress, buckle, buckle_family, check,
-    equilibria, inverse_dynamics, inverse_dynamics_family, solve, solve_family, solve_model, trace,
-    trace_family,
+    equilibria, inverse_dynamics, inverse_dynamics_family, modes, modes_along, solve, solve_family,
+    solve_model, trace, trace_family,
 };
 pub use solve_file::{Error, Solved, solve_file};
 pub use trace_file::{Buckled, Traced, buckle_file, study_named, trace_file};

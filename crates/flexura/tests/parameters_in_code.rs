@@ -26,6 +26,7 @@ fn cantilever() -> Model {
         ga2: None,
         ga3: None,
         mass_per_length: None,
+        rotary_inertia: None,
     };
     model.sections.push(Section { name: "rod".into(), shape, plane_strain: false });
     model.beams.push(Beam {

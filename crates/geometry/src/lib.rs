@@ -35,6 +35,6 @@ pub use error::{SectionError, ShapeError};
 pub use rest_shape::RestShape;
 pub use section::{
     Compliance, Properties, SectionStress, compliance, is_uniform, mass_per_length, outline, peak_stress,
-    properties, section_breaks, section_hidden, stiffness,
+    properties, rotary_inertia, section_breaks, section_hidden, stiffness,
 };
 pub use surface::{Curvatures, Fit, ImplicitSurface, SurfaceError, eigenvalues};

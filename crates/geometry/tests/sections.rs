@@ -44,7 +44,7 @@ fn diagonal(section: &Section, theory: BeamTheory) -> [f64; 6] {
 }
 
 fn matrix_section(matrix: Matrix6<f64>) -> Section {
-    section(Shape::StiffnessMatrix { matrix: Box::new(matrix), mass_per_length: None })
+    section(Shape::StiffnessMatrix { matrix: Box::new(matrix), mass_per_length: None, rotary_inertia: None })
 }
 
 /// A symmetric positive definite matrix with the sizes of a real section: N, N, N, N·m², N·m², N·m².
@@ -94,6 +94,7 @@ fn an_infinite_stiffness_is_rigid() {
         ga2,
         ga3: Some(10.0.into()),
         mass_per_length: Some(0.3.into()),
+        rotary_inertia: None,
     };
     let rigid = section(shape(Some(5.0.into())));
     let c = compliance(&rigid, None, SHEARABLE, 0.0, 1.0).expect("good");

@@ -5,7 +5,7 @@ use crate::problems::{ProblemDocument, Trouble};
 use crate::ranges::range_of;
 use crate::session::Session;
 use flexura::model::StudyKind;
-use flexura::output::{BucklingDocument, Document, InverseDynamicsDocument, TraceDocument};
+use flexura::output::{BucklingDocument, Document, InverseDynamicsDocument, ModesDocument, TraceDocument};
 use serde::{Deserialize, Serialize};
 
 /// Samples along each beam unless a request says otherwise, as `flexura solve` has them.
@@ -142,6 +142,8 @@ pub enum AnyDocument {
     Trace(Box<TraceDocument>),
     /// Of critical loads.
     Buckling(Box<BucklingDocument>),
+    /// Natural modes.
+    Modes(Box<ModesDocument>),
     /// Of a motion in time.
     InverseDynamics(Box<InverseDynamicsDocument>),
 }

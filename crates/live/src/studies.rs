@@ -3,8 +3,8 @@
 use crate::problems::Trouble;
 use crate::request::{Answer, AnyDocument};
 use crate::session::Session;
-use flexura::model::{BuckleStudy, InverseDynamicsStudy, StudyKind, TraceStudy};
-use flexura::{Buckled, Options, ProblemError, motion_view, output};
+use flexura::model::{BuckleStudy, InverseDynamicsStudy, ModesStudy, StudyKind, TraceStudy};
+use flexura::{Buckled, Options, ProblemError, Vibrated, motion_view, output};
 
 /// Sections along each beam of the shapes along a path.
 const SHAPES: usize = 17;
@@ -22,6 +22,7 @@ impl Session {
             StudyKind::Solve => self.solve(self.options.samples),
             StudyKind::Trace(study) => self.follow(name, &study),
             StudyKind::Buckle(study) => self.buckle(name, &study),
+            StudyKind::Modes(study) => self.vibrate(name, &study),
             StudyKind::InverseDynamics(study) => self.travel(name, &study),
             StudyKind::Fit(_) | StudyKind::Formula(_) | StudyKind::Optimise(_) => {
                 Err(Trouble::plain(format!("`{name}` has no states to show; `flexura run` does it")))
@@ -60,6 +61,15 @@ impl Session {
         let mut document = buckled.document().map_err(|error| Trouble::plain(error.to_string()))?;
         document.scene.text = Some(self.file.text().to_owned());
         Ok(Answer { document: Some(AnyDocument::Buckling(Box::new(document))), ..Answer::default() })
+    }
+
+    fn vibrate(&mut self, name: &str, study: &ModesStudy) -> Result<Answer, Trouble> {
+        let model = self.plain_model();
+        let vibrated = Vibrated::new(&model, study, &self.options, &mut |_| {})
+            .map_err(|error| self.of_study(name, &error))?;
+        let mut document = vibrated.document().map_err(|error| Trouble::plain(error.to_string()))?;
+        document.scene.text = Some(self.file.text().to_owned());
+        Ok(Answer { document: Some(AnyDocument::Modes(Box::new(document))), ..Answer::default() })
     }
 
     fn travel(&mut self, name: &str, study: &InverseDynamicsStudy) -> Result<Answer, Trouble> {

@@ -53,7 +53,7 @@ pub use notch::{Notch, NotchShape};
 pub use output::{Output, Probe, ProbeTarget, Quantity};
 pub use profile::{At, Profile};
 pub use spring::{ExponentialForm, Obstacle, Spring, SpringLaw, Turn, Wrap};
-pub use study::{BuckleStudy, CriticalStudy, Stop, Study, StudyKind, TraceStudy};
+pub use study::{BuckleStudy, CriticalStudy, ModesPath, ModesStudy, Stop, Study, StudyKind, TraceStudy};
 pub use text::{is_unseen, visible, visible_lines};
 pub use tubes::{Tube, Tubes};
 pub use validate::{Issue, name_problem};

@@ -84,6 +84,8 @@ pub enum Shape {
         ga3: Option<Profile>,
         /// Mass per length, kg/m. None is massless.
         mass_per_length: Option<Profile>,
+        /// Moments of inertia per length about e1, e2, e3, kg·m. None: none.
+        rotary_inertia: Option<Box<[Profile; 3]>>,
     },
     /// The full symmetric stiffness in the order (ε, γ2, γ3, κ1, κ2, κ3) -> (F1, F2, F3, M1, M2, M3).
     StiffnessMatrix {
@@ -91,5 +93,7 @@ pub enum Shape {
         matrix: Box<Matrix6<f64>>,
         /// Mass per length, kg/m. None is massless.
         mass_per_length: Option<Profile>,
+        /// Moments of inertia per length about e1, e2, e3, kg·m. None: none.
+        rotary_inertia: Option<Box<[Profile; 3]>>,
     },
 }

@@ -21,6 +21,8 @@ pub enum StudyKind {
     Trace(TraceStudy),
     /// Critical loads and shapes of the linearised problem.
     Buckle(BuckleStudy),
+    /// Natural frequencies and shapes.
+    Modes(ModesStudy),
     /// Velocities, accelerations and forces of a motion in time.
     InverseDynamics(InverseDynamicsStudy),
     /// Parameters from measurements.
@@ -38,6 +40,7 @@ impl StudyKind {
             StudyKind::Solve => "solve",
             StudyKind::Trace(_) => "trace",
             StudyKind::Buckle(_) => "buckle",
+            StudyKind::Modes(_) => "modes",
             StudyKind::InverseDynamics(_) => "inverse_dynamics",
             StudyKind::Fit(_) => "fit",
             StudyKind::Formula(_) => "formula",
@@ -107,6 +110,34 @@ pub struct BuckleStudy {
     pub at: f64,
     /// How many critical values, those nearest to `at` first.
     pub count: usize,
+}
+
+/// Natural frequencies and shapes of small vibrations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModesStudy {
+    /// How many, the lowest first; motions without stiffness come before them and are not counted.
+    pub count: usize,
+    /// About the state at rest, without any load, instead of about the equilibrium.
+    pub at_rest: bool,
+    /// Over the path of equilibria as a parameter changes, instead of about one of them.
+    pub path: Option<ModesPath>,
+}
+
+/// The path along which frequencies are followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModesPath {
+    /// Position in [`crate::Model::parameters`].
+    pub parameter: usize,
+    /// Values between which the path is followed, SI; the first may be the larger.
+    pub range: [f64; 2],
+    /// About how many points it has, at least.
+    pub steps: usize,
+}
+
+impl Default for ModesStudy {
+    fn default() -> Self {
+        Self { count: 6, at_rest: false, path: None }
+    }
 }
 
 impl Default for TraceStudy {

@@ -14,6 +14,7 @@ mod document;
 mod fitting;
 mod json;
 mod kept;
+mod modes;
 mod motion;
 mod read;
 mod scene;
@@ -39,6 +40,10 @@ pub use fitting::{
 };
 pub use json::{Named, to_json};
 pub use kept::{Make, kept_pictures};
+pub use modes::{
+    FrequenciesDocument, FrequencyBranch, FrequencyDocument, FrequencyPoint, ModesDocument,
+    VibrationDocument, frequencies_csv, frequencies_document, modes_document, vibration_csv,
+};
 pub use motion::{
     BodySeries, CableSeries, InverseDynamicsDocument, JointSeries, MotionView, MotionWorkDocument, Series,
     SpringSeries, motion_csv, motion_document,
@@ -50,8 +55,8 @@ pub use scene::{
     TubeScene, TubesScene, UnitsDocument, WrapScene, loads, scene, scene_beside,
 };
 pub use svg::{
-    SampleColumn, SweepView, diagram_svg, fit_svg, formula_svg, modes_svg, motion_svg, shape_svg, shapes_svg,
-    stacked, sweep_svg,
+    SampleColumn, SweepView, diagram_svg, fit_svg, formula_svg, frequencies_svg, modes_svg, motion_svg,
+    shape_svg, shapes_svg, stacked, sweep_svg, vibration_svg,
 };
 pub use thin::shape_of;
 pub use trace::{

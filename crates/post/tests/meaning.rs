@@ -239,6 +239,7 @@ fn stress_of_a_section_given_as_a_stiffness_is_an_error_with_the_beams_name() {
         ga2: None,
         ga3: None,
         mass_per_length: None,
+        rotary_inertia: None,
     };
     assert!(evaluate(&model, &solution).unwrap().beams[0].is_none());
     model.outputs = vec![output("w", ProbeTarget::Beam(BeamId(0), At::Fraction(1.0)), Quantity::Stress, 1)];

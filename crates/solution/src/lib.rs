@@ -6,6 +6,7 @@
 mod contact;
 mod design;
 mod fit;
+mod modes;
 mod motion;
 mod trace;
 mod warnings;
@@ -17,6 +18,7 @@ pub use fit::{
     Estimate, Fit, FitWork, FittedRow, MeasuredFit, ResponseFormula, ResponsePiece, ResponsePoint,
     SpecimenFit, Spread, Unseen,
 };
+pub use modes::{Followed, Mode, ModeKind, Modes, ModesAlong, Shares};
 pub use motion::{BodyMotion, Instant, InverseDynamics, JointMotion, MotionWork, Rates};
 pub use trace::{
     Branch, BranchEnd, BranchOrigin, Buckling, BucklingMode, CriticalCurve, Crossing, Direction, PointKind,

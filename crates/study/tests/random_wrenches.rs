@@ -22,6 +22,7 @@ fn cantilever() -> Model {
             ga2: None,
             ga3: None,
             mass_per_length: None,
+            rotary_inertia: None,
         },
         plane_strain: false,
     });

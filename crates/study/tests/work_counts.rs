@@ -17,6 +17,7 @@ fn solved(ei: f64, curve: Curve, start: Pose, force: Vector3<f64>) -> Work {
         ga2: None,
         ga3: None,
         mass_per_length: None,
+        rotary_inertia: None,
     };
     model.sections.push(Section { name: "section".into(), shape, plane_strain: false });
     model.beams.push(Beam {

@@ -46,6 +46,7 @@ impl Stiffness {
                 ga2: self.ga.is_finite().then(|| self.ga.into()),
                 ga3: self.ga.is_finite().then(|| self.ga.into()),
                 mass_per_length: None,
+                rotary_inertia: None,
             },
             plane_strain: false,
         }

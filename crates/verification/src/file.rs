@@ -3,8 +3,8 @@
 use flexura::modelfile::Document;
 use flexura::post::{self, Evaluation, OutputValue};
 use flexura::{Options, inverse_dynamics, solve_model};
-use flexura_model::{InverseDynamicsStudy, Model, MotionLaw, Sampling};
-use flexura_solution::{InverseDynamics, Status};
+use flexura_model::{InverseDynamicsStudy, Model, ModesStudy, MotionLaw, Sampling};
+use flexura_solution::{InverseDynamics, Modes, Solution, Status};
 
 /// A model file, with what a case adds to it.
 pub struct File {
@@ -14,6 +14,7 @@ pub struct File {
 /// A solved file.
 pub struct Answer {
     pub model: Model,
+    pub solution: Solution,
     pub evaluation: Evaluation,
 }
 
@@ -51,7 +52,22 @@ impl File {
             return Err(format!("{} at {values:?}: {reason}", solution.status.word()));
         }
         let evaluation = post::evaluate(&model, &solution).map_err(|error| error.to_string())?;
-        Ok(Answer { model, evaluation })
+        Ok(Answer { model, solution, evaluation })
+    }
+
+    /// The lowest modes, with some parameters (SI) overridden.
+    ///
+    /// # Errors
+    /// The model is wrong, or its equilibrium was not found.
+    pub fn modes(&self, values: &[(&str, f64)], count: usize, options: &Options) -> Result<Modes, String> {
+        let model = self.document.model(&Self::overrides(values)).map_err(|report| report.render(false))?;
+        let study = ModesStudy { count, ..ModesStudy::default() };
+        let modes =
+            flexura::modes(&model, &study, options, &mut |_| {}).map_err(|error| error.to_string())?;
+        match modes.solution.status {
+            Status::Converged => Ok(modes),
+            status => Err(format!("{}: {}", status.word(), modes.solution.reason.unwrap_or_default())),
+        }
     }
 
     /// Through a motion in time, with some parameters (SI) overridden.

@@ -123,6 +123,18 @@ conforms!(
     knee_slide,
     rolling_beam,
     rolling_ellipsoids,
+    modes_of_beams,
+    modes_of_timoshenko_beams,
+    modes_of_bars,
+    modes_of_columns,
+    modes_of_tapered_beams,
+    modes_of_arcs,
+    modes_of_springs,
+    modes_about_loads,
+    modes_of_buckled_strips,
+    modes_of_flexures,
+    modes_of_a_platform,
+    modes_without_energy,
 );
 
 #[test]

@@ -12,13 +12,13 @@ use flexura_spatial::{Twist, Vector3, Wrench};
 use nalgebra::Vector6;
 
 type V = Vector3<f64>;
-pub(super) type Motions = Vec<(usize, Vector6<f64>)>;
+pub(crate) type Motions = Vec<(usize, Vector6<f64>)>;
 
 /// A row or column of the plain tangents in the symmetric matrix: its number and sign there; none where it has no part in it.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Target {
+pub(crate) struct Target {
     pub at: Option<usize>,
-    flipped: bool,
+    pub flipped: bool,
 }
 
 /// What a stretch costs, in integration steps of one state.
@@ -53,12 +53,17 @@ impl Numbers {
         k.checked_sub(1).and_then(|k| self.pose(k))
     }
 
+    /// Its unknowns in the plain tangents: the first, and how many.
+    pub fn slots(&self) -> [usize; 2] {
+        [self.first, self.count()]
+    }
+
     pub fn count(&self) -> usize {
         6 * self.stretches - if self.free { 0 } else { 6 }
     }
 }
 
-pub(super) fn vector(angular: V, linear: V) -> Vector6<f64> {
+pub(crate) fn vector(angular: V, linear: V) -> Vector6<f64> {
     Vector6::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
 }
 
@@ -101,7 +106,8 @@ impl Equilibrium {
             total += own.count();
             numbers.push(own);
         }
-        let (rows, columns, size, multipliers) = self.targets(&numbers, total);
+        let own: Vec<[usize; 2]> = numbers.iter().map(Numbers::slots).collect();
+        let (rows, columns, size, multipliers) = self.targets(&own, total);
         let shape: Vec<usize> = cuts.iter().map(|cut| cut.forms.len()).collect();
         self.effort.0 += STRETCH * shape.iter().sum::<usize>() as f64 + self.cost_of_factorising();
         let mut second = std::mem::take(&mut self.second);
@@ -138,10 +144,10 @@ impl Equilibrium {
     }
 
     /// Where rows and columns of the plain tangents stand in the symmetric matrix, its size, and how many of its unknowns are
-    /// multipliers.
-    pub(super) fn targets(
+    /// multipliers. Of each span's own unknowns `own` has the first and their number.
+    pub(crate) fn targets(
         &self,
-        numbers: &[Numbers],
+        own: &[[usize; 2]],
         total: usize,
     ) -> (Vec<Target>, Vec<Target>, usize, usize) {
         let mut columns = vec![Target::default(); total];
@@ -185,8 +191,8 @@ impl Equilibrium {
             flipped[slot.unknown] = true;
             multipliers += 1;
         }
-        for own in numbers {
-            take(&mut columns, own.first, own.count());
+        for [first, count] in own {
+            take(&mut columns, *first, *count);
         }
         let mut rows: Vec<Target> =
             columns.iter().zip(&flipped).map(|(c, flipped)| Target { at: c.at, flipped: *flipped }).collect();
@@ -295,7 +301,7 @@ impl Equilibrium {
         }
     }
 
-    pub(super) fn held_by(&self, hold: &Hold, slot: &CoordinateSlot) -> Held {
+    pub(crate) fn held_by(&self, hold: &Hold, slot: &CoordinateSlot) -> Held {
         self.held(&hold.carrier, &HoldRef::of(hold), &self.configuration(slot))
     }
 }

@@ -27,7 +27,7 @@ mod tests;
 mod undecided;
 mod variation;
 
-pub(crate) use assemble::Second;
+pub(crate) use assemble::{Motions, Second, vector};
 pub use variation::{Rate, Variation};
 
 use crate::system::Equilibrium;

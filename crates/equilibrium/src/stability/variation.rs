@@ -96,7 +96,8 @@ impl Equilibrium {
         self.residual()?;
         let (_, cuts, numbers) = self.second_variation(parts, kept)?;
         let total = self.layout.interface + numbers.iter().map(Numbers::count).sum::<usize>();
-        let (_, columns, ..) = self.targets(&numbers, total);
+        let own: Vec<[usize; 2]> = numbers.iter().map(Numbers::slots).collect();
+        let (_, columns, ..) = self.targets(&own, total);
         Ok(Variation { matrix: self.second.symmetric.clone(), cuts, numbers, columns })
     }
 

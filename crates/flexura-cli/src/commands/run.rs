@@ -1,7 +1,7 @@
 //! `flexura run FILE [STUDY]`
 
 use super::{
-    buckle, file_failure, fit, formula, motion, optimise, solve, trace, warn_about, warn_of_outputs,
+    buckle, file_failure, fit, formula, modes, motion, optimise, solve, trace, warn_about, warn_of_outputs,
 };
 use crate::answer::{Answer, StudyDocument, Task, json};
 use crate::arguments::RunArguments;
@@ -117,6 +117,7 @@ fn answer(task: &Task, study: &Study, folder: Option<&Path>) -> Result<Answer, F
         StudyKind::Solve => solve::study(task, None),
         StudyKind::Trace(trace) => trace::study(task, &study.name, trace, folder),
         StudyKind::Buckle(buckle) => buckle::study(task, &study.name, buckle),
+        StudyKind::Modes(modes) => modes::study(task, &study.name, modes),
         StudyKind::InverseDynamics(motion) => motion::study(task, &study.name, motion),
         StudyKind::Fit(fit) => fit::study(task, &study.name, fit),
         StudyKind::Formula(formula) => formula::study(task, &study.name, formula),

@@ -10,7 +10,7 @@ mod torsion;
 
 pub use compliance::{Compliance, compliance, stiffness};
 pub use outline::outline;
-pub use properties::{Properties, mass_per_length, properties};
+pub use properties::{Properties, mass_per_length, properties, rotary_inertia};
 pub use stress::{SectionStress, peak_stress};
 
 use flexura_model::{Profile, Section, Shape};
@@ -21,11 +21,14 @@ fn profiles(shape: &Shape) -> Vec<&Profile> {
         Shape::Rectangle { width, height } | Shape::Ellipse { width, height } => vec![width, height],
         Shape::Circle { diameter } => vec![diameter],
         Shape::Tube { outer_diameter, inner_diameter } => vec![outer_diameter, inner_diameter],
-        Shape::Stiffness { ea, gj, ei2, ei3, ga2, ga3, mass_per_length } => {
+        Shape::Stiffness { ea, gj, ei2, ei3, ga2, ga3, mass_per_length, rotary_inertia } => {
             let given = [ga2, ga3, mass_per_length].into_iter().flatten();
+            let given = given.chain(rotary_inertia.iter().flat_map(|three| three.iter()));
             [ea, gj, ei2, ei3].into_iter().chain(given).collect()
         }
-        Shape::StiffnessMatrix { mass_per_length, .. } => mass_per_length.iter().collect(),
+        Shape::StiffnessMatrix { mass_per_length, rotary_inertia, .. } => {
+            mass_per_length.iter().chain(rotary_inertia.iter().flat_map(|three| three.iter())).collect()
+        }
     }
 }
 

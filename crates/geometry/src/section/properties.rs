@@ -164,6 +164,34 @@ pub fn mass_per_length(
     }
 }
 
+/// Moments of inertia per undeformed length about e1, e2 and e3 at arc length `s`, kg·m: ρ (I2 + I3), ρ I2 and ρ I3; zero for
+/// a material without density.
+///
+/// # Errors
+/// Dimensions that are not positive, a moment that is negative.
+pub fn rotary_inertia(
+    section: &Section,
+    material: Option<&Material>,
+    s: f64,
+    length: f64,
+) -> Result<[f64; 3], SectionError> {
+    match &section.shape {
+        Shape::Stiffness { rotary_inertia, .. } | Shape::StiffnessMatrix { rotary_inertia, .. } => {
+            let Some(given) = rotary_inertia else { return Ok([0.0; 3]) };
+            let values = [0, 1, 2].map(|i| given[i].value(s, length));
+            match values.iter().find(|value| !(**value >= 0.0 && value.is_finite())) {
+                Some(&value) => Err(SectionError::NotPositive { what: "rotary inertia", value, s }),
+                None => Ok(values),
+            }
+        }
+        _ => {
+            let density = material.and_then(|material| material.density).unwrap_or(0.0);
+            let of = |p: Properties| [p.i2 + p.i3, p.i2, p.i3].map(|moment| density * moment);
+            Ok(properties(section, s, length, 0.0)?.map_or([0.0; 3], of))
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -225,7 +225,7 @@ fn section(v: &mut impl Visit, Section { name, shape, plane_strain: _ }: &mut Se
                 own(v, "outer_diameter", outer_diameter);
                 own(v, "inner_diameter", inner_diameter);
             }
-            Shape::Stiffness { ea, gj, ei2, ei3, ga2, ga3, mass_per_length } => {
+            Shape::Stiffness { ea, gj, ei2, ei3, ga2, ga3, mass_per_length, rotary_inertia } => {
                 for (key, of) in [("EA", ea), ("GJ", gj), ("EI2", ei2), ("EI3", ei3)] {
                     own(v, key, of);
                 }
@@ -234,8 +234,11 @@ fn section(v: &mut impl Visit, Section { name, shape, plane_strain: _ }: &mut Se
                         own(v, key, of);
                     }
                 }
+                if let Some(of) = rotary_inertia {
+                    profiles(v, "rotary_inertia", of);
+                }
             }
-            Shape::StiffnessMatrix { matrix, mass_per_length } => {
+            Shape::StiffnessMatrix { matrix, mass_per_length, rotary_inertia } => {
                 v.within(Step::Key("matrix"), |v| {
                     for i in 0..6 {
                         v.within(Step::Index(i), |v| {
@@ -247,6 +250,9 @@ fn section(v: &mut impl Visit, Section { name, shape, plane_strain: _ }: &mut Se
                 });
                 if let Some(of) = mass_per_length {
                     own(v, "mass_per_length", of);
+                }
+                if let Some(of) = rotary_inertia {
+                    profiles(v, "rotary_inertia", of);
                 }
             }
         }

@@ -20,7 +20,7 @@ fn profiles(shape: &Shape) -> Vec<(&'static str, &Profile, bool, bool)> {
                 ("inner_diameter", inner_diameter, true, false),
             ]
         }
-        Shape::Stiffness { ea, gj, ei2, ei3, ga2, ga3, mass_per_length } => {
+        Shape::Stiffness { ea, gj, ei2, ei3, ga2, ga3, mass_per_length, rotary_inertia } => {
             let mut all = vec![
                 ("EA", ea, false, true),
                 ("GJ", gj, false, true),
@@ -29,13 +29,26 @@ fn profiles(shape: &Shape) -> Vec<(&'static str, &Profile, bool, bool)> {
             ];
             all.extend(ga2.iter().map(|profile| ("GA2", profile, false, true)));
             all.extend(ga3.iter().map(|profile| ("GA3", profile, false, true)));
-            all.extend(mass_per_length.iter().map(|profile| ("mass_per_length", profile, true, false)));
+            all.extend(masses(mass_per_length, rotary_inertia));
             all
         }
-        Shape::StiffnessMatrix { mass_per_length, .. } => {
-            mass_per_length.iter().map(|profile| ("mass_per_length", profile, true, false)).collect()
+        Shape::StiffnessMatrix { mass_per_length, rotary_inertia, .. } => {
+            masses(mass_per_length, rotary_inertia).collect()
         }
     }
+}
+
+/// The inertia of a section that is given by its stiffness.
+fn masses<'a>(
+    per_length: &'a Option<Profile>,
+    rotary: &'a Option<Box<[Profile; 3]>>,
+) -> impl Iterator<Item = (&'static str, &'a Profile, bool, bool)> {
+    let rotary = rotary.iter().flat_map(|three| three.iter());
+    let keys = ["rotary_inertia[0]", "rotary_inertia[1]", "rotary_inertia[2]"];
+    per_length
+        .iter()
+        .map(|profile| ("mass_per_length", profile, true, false))
+        .chain(keys.into_iter().zip(rotary).map(|(key, profile)| (key, profile, true, false)))
 }
 
 fn sound(value: f64, zero: bool, infinite: bool) -> bool {

@@ -2,7 +2,8 @@
 
 use super::Issues;
 use crate::{
-    BuckleStudy, CriticalStudy, Issue, Model, Parameter, Stop, Study, StudyKind, Target, TraceStudy,
+    BuckleStudy, CriticalStudy, Issue, Model, ModesStudy, Parameter, Stop, Study, StudyKind, Target,
+    TraceStudy,
 };
 
 impl Model {
@@ -20,6 +21,10 @@ impl Model {
             StudyKind::Buckle(buckle) => {
                 self.check_forward(&path, "asked for critical loads", &mut issues);
                 self.check_buckle(buckle, &path, &mut issues);
+            }
+            StudyKind::Modes(modes) => {
+                self.check_forward(&path, "asked for its modes", &mut issues);
+                self.check_modes(modes, &path, &mut issues);
             }
             StudyKind::InverseDynamics(motion) => {
                 self.check_forward(&path, "moved in time", &mut issues);
@@ -157,6 +162,21 @@ impl Model {
         }
         issues.finite(format_args!("{path}.at"), buckle.at);
         at_least(buckle.count, 1, &format!("{path}.count"), issues);
+    }
+
+    fn check_modes(&self, modes: &ModesStudy, path: &str, issues: &mut Issues) {
+        at_least(modes.count, 1, &format!("{path}.count"), issues);
+        let Some(along) = modes.path else { return };
+        at_least(along.steps, 1, &format!("{path}.steps"), issues);
+        let Some(parameter) = self.parameter_of(along.parameter, path, issues) else { return };
+        check_ends(along.range, parameter, &format!("{path}.range"), issues);
+        if modes.at_rest {
+            issues.add_with_hint(
+                format!("{path}.at_rest"),
+                "a path leads through equilibria, not along the state at rest",
+                "leave out `at_rest`, or `parameter` and `range`",
+            );
+        }
     }
 
     pub(super) fn parameter_of(

@@ -270,6 +270,7 @@ fn tubes_nest_and_the_innermost_reaches_farthest() {
         ga2: None,
         ga3: None,
         mass_per_length: None,
+        rotary_inertia: None,
     };
     let with = |change: &dyn Fn(&mut Tubes, &mut Vec<Section>)| {
         paths(|m| {

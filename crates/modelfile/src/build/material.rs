@@ -79,6 +79,7 @@ pub(super) fn section(reader: &Reader<'_, '_>, name: String) -> Read<Section> {
             let [gj, ei2, ei3] = ["GJ", "EI2", "EI3"].map(|key| dimensions.stiffness(key));
             let ea = dimensions.optional("EA");
             let [ga2, ga3, mass] = ["GA2", "GA3", "mass_per_length"].map(|key| dimensions.optional(key));
+            let rotary = reader.profiles("rotary_inertia");
             Shape::Stiffness {
                 // Only beams that do not stretch may have such a section, which `check_stretch` sees to.
                 ea: ea?.unwrap_or(Profile::Constant(f64::INFINITY)),
@@ -88,6 +89,7 @@ pub(super) fn section(reader: &Reader<'_, '_>, name: String) -> Read<Section> {
                 ga2: ga2?,
                 ga3: ga3?,
                 mass_per_length: mass?,
+                rotary_inertia: rotary?.map(Box::new),
             }
         }
         _ => return Err(Reported),
@@ -302,7 +304,12 @@ fn matrix_section(reader: &Reader<'_, '_>, dimensions: &Dimensions<'_, '_, '_>) 
     }
     let matrix = matrix(reader);
     let mass_per_length = dimensions.optional("mass_per_length");
-    Ok(Shape::StiffnessMatrix { matrix: Box::new(matrix?), mass_per_length: mass_per_length? })
+    let rotary_inertia = reader.profiles("rotary_inertia");
+    Ok(Shape::StiffnessMatrix {
+        matrix: Box::new(matrix?),
+        mass_per_length: mass_per_length?,
+        rotary_inertia: rotary_inertia?.map(Box::new),
+    })
 }
 
 fn matrix(reader: &Reader<'_, '_>) -> Read<Matrix6<f64>> {

@@ -7,7 +7,7 @@ use crate::context::{Context, Needed, Read, Reported, suggest};
 use crate::reader::Reader;
 use crate::tree::{Entry, Node, Value};
 use flexura_expression::Kind;
-use flexura_model::{BuckleStudy, CriticalStudy, Model, Study, StudyKind, TraceStudy};
+use flexura_model::{BuckleStudy, CriticalStudy, Model, ModesPath, ModesStudy, Study, StudyKind, TraceStudy};
 
 /// How many branches `branches = true` stands for.
 const BRANCHES: usize = 20;
@@ -43,6 +43,7 @@ fn study(context: &Context<'_>, entry: &Entry, known: &Known<'_>) -> Read<Study>
     let kind = match reader.variant {
         "trace" => StudyKind::Trace(trace(&reader, model, outputs)?),
         "buckle" => StudyKind::Buckle(buckle(&reader, model)?),
+        "modes" => StudyKind::Modes(modes(&reader, model)?),
         "inverse_dynamics" => StudyKind::InverseDynamics(motion::inverse_dynamics(&reader, model)?),
         "fit" => StudyKind::Fit(fit::fit(&reader, model, outputs)?),
         "formula" => {
@@ -105,6 +106,32 @@ fn buckle(reader: &Reader<'_, '_>, model: &Model) -> Read<BuckleStudy> {
         at: at?.unwrap_or(0.0),
         count: count?.unwrap_or(3),
     })
+}
+
+fn modes(reader: &Reader<'_, '_>, model: &Model) -> Read<ModesStudy> {
+    let parameter = parameter(reader, model)?;
+    let range = range(reader, parameter.as_ref());
+    let (count, at_rest, steps) = (reader.count("count"), reader.flag("at_rest"), reader.count("steps"));
+    let path = match (parameter, range?) {
+        (Some(parameter), Some(range)) => {
+            let steps = steps?.unwrap_or(TraceStudy::default().steps);
+            Some(ModesPath { parameter: parameter.position, range, steps })
+        }
+        (None, None) if steps?.is_none() => None,
+        (None, None) => {
+            return Err(reader.wrong_at("steps", "steps of no path", "give `parameter` and `range`, too"));
+        }
+        (Some(_), None) => {
+            let hint = "give the `range` along which it changes, or its value in [parameter]";
+            return Err(reader.wrong_at("parameter", "a path needs a range", hint));
+        }
+        (None, Some(_)) => {
+            let hint = "give the `parameter` that changes";
+            return Err(reader.wrong_at("range", "a path needs a parameter", hint));
+        }
+    };
+    let standard = ModesStudy::default();
+    Ok(ModesStudy { count: count?.unwrap_or(standard.count), at_rest: at_rest?.unwrap_or(false), path })
 }
 
 fn imperfection(reader: &Reader<'_, '_>, model: &Model) -> Read<Option<(usize, f64)>> {

@@ -119,6 +119,13 @@ pub(crate) static SECTION: Table = Table {
                         "The full symmetric stiffness, from (stretch, shear 2, shear 3, twist, bending 2, bending 3) to (F1, F2, F3, M1, M2, M3), instead of the keys above.",
                     ),
                     MASS_PER_LENGTH,
+                    key(
+                        "rotary_inertia",
+                        Shape::Profiles(D::ROTARY_INERTIA),
+                        Default("none"),
+                        "[\"3e-6 kg*m\", \"2e-6 kg*m\", \"1e-6 kg*m\"]",
+                        "Moments of inertia per length about e1, e2 and e3.",
+                    ),
                 ],
             ),
         ],

@@ -115,6 +115,41 @@ pub(crate) static STUDY: Table = Table {
                 ],
             ),
             variant(
+                "modes",
+                "Natural frequencies and shapes of small vibrations about an equilibrium, or along a path of them. Not for an inverse problem.",
+                &[
+                    key("count", Shape::Count, Default("6"), "10", "How many, the lowest first."),
+                    key(
+                        "at_rest",
+                        Shape::Flag,
+                        Default("false"),
+                        "true",
+                        "About the state at rest without any load, in place of the equilibrium.",
+                    ),
+                    key(
+                        "parameter",
+                        Shape::Parameter,
+                        Optional,
+                        "\"push\"",
+                        "The parameter along whose path the frequencies are followed.",
+                    ),
+                    key(
+                        "range",
+                        Shape::AnyRange,
+                        Optional,
+                        "[\"0 N\", \"40 N\"]",
+                        "Values between which the path is followed; the first may be the larger.",
+                    ),
+                    key(
+                        "steps",
+                        Shape::Count,
+                        Default("40"),
+                        "100",
+                        "About how many points the path has, at least.",
+                    ),
+                ],
+            ),
+            variant(
                 "inverse_dynamics",
                 "A motion in time through one parameter that drives a rigid mechanism: velocities, accelerations, and the forces and efforts that it takes.",
                 &MOTION,

@@ -3,7 +3,8 @@
 use super::Writer;
 use super::tree::{Table, Value};
 use flexura_model::{
-    BuckleStudy, InverseDynamicsStudy, MotionLaw, Pace, Sampling, Stop, StudyKind, Target, TraceStudy, Until,
+    BuckleStudy, InverseDynamicsStudy, ModesStudy, MotionLaw, Pace, Sampling, Stop, StudyKind, Target,
+    TraceStudy, Until,
 };
 
 impl Writer<'_> {
@@ -15,6 +16,7 @@ impl Writer<'_> {
                 StudyKind::Solve => {}
                 StudyKind::Trace(trace) => self.trace(trace, &mut table),
                 StudyKind::Buckle(buckle) => self.buckle(buckle, &mut table),
+                StudyKind::Modes(modes) => self.modes(modes, &mut table),
                 StudyKind::InverseDynamics(motion) => self.motion(motion, &mut table),
                 StudyKind::Fit(fit) => self.fit(fit, &mut table),
                 StudyKind::Formula(formula) => self.formula(formula, &mut table),
@@ -86,6 +88,18 @@ impl Writer<'_> {
         table.put_some("parameter", buckle.parameter.map(|position| self.parameter(position)));
         table.put("at", Value::number(buckle.at));
         table.put("count", Value::plain(&buckle.count.to_string()));
+    }
+
+    fn modes(&self, modes: &ModesStudy, table: &mut Table) {
+        table.put("count", Value::plain(&modes.count.to_string()));
+        if modes.at_rest {
+            table.put("at_rest", Value::flag(true));
+        }
+        if let Some(path) = &modes.path {
+            table.put("parameter", self.parameter(path.parameter));
+            table.put("range", Value::List(path.range.map(Value::number).to_vec()));
+            table.put("steps", Value::plain(&path.steps.to_string()));
+        }
     }
 
     fn motion(&self, motion: &InverseDynamicsStudy, table: &mut Table) {

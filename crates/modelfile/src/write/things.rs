@@ -98,7 +98,7 @@ impl Writer<'_> {
             Shape::Tube { outer_diameter, inner_diameter } => {
                 ("tube", vec![("outer_diameter", outer_diameter), ("inner_diameter", inner_diameter)])
             }
-            Shape::Stiffness { ea, gj, ei2, ei3, ga2, ga3, mass_per_length } => {
+            Shape::Stiffness { ea, gj, ei2, ei3, ga2, ga3, mass_per_length, rotary_inertia: _ } => {
                 let mut list = vec![("EA", ea), ("GJ", gj), ("EI2", ei2), ("EI3", ei3)];
                 list.extend(ga2.iter().map(|of| ("GA2", of)));
                 list.extend(ga3.iter().map(|of| ("GA3", of)));
@@ -118,6 +118,11 @@ impl Writer<'_> {
             if !matches!(profile, Profile::Table { .. }) {
                 table.put(key, self.profile(&format!("{path}.{key}"), profile)?);
             }
+        }
+        if let Shape::Stiffness { rotary_inertia: Some(three), .. }
+        | Shape::StiffnessMatrix { rotary_inertia: Some(three), .. } = &section.shape
+        {
+            table.put("rotary_inertia", self.profiles(&format!("{path}.rotary_inertia"), &three[..])?);
         }
         table.put_some("along", self.along(&path, &columns)?);
         if section.plane_strain {

@@ -52,6 +52,7 @@ fn pictures(document: &Value, make: &mut Make<'_>) -> Result<Vec<String>, ReadEr
         Some("solve" | "optimise") => states::solve(document, make),
         Some("trace") => paths::trace(document, make),
         Some("buckle") => states::buckle(document, make),
+        Some("modes") => states::modes(document, make),
         Some("inverse_dynamics") => motions::motion(document, make),
         Some(study) => Err(ReadError::NoPicture(study.to_owned())),
         None => Err(ReadError::NoDocument("it has no key `study`".into())),

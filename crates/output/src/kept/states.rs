@@ -4,9 +4,9 @@ use super::{Make, list, model_of, number, text, vector};
 use crate::read::{ReadError, solution_of, status_of};
 use crate::scene::{BeamScene, SceneDocument};
 use crate::wire::Document;
-use crate::{modes_svg, shape_svg};
+use crate::{modes_svg, shape_svg, vibration_svg};
 use flexura_model::Model;
-use flexura_solution::{Buckling, BucklingMode, Direction, Solution, Status};
+use flexura_solution::{Buckling, BucklingMode, Direction, Mode, ModeKind, Modes, Solution, Status};
 use flexura_spatial::{Pose, Quaternion, Twist, UnitQuaternion, Vector3};
 use serde_json::{Map, Value};
 
@@ -35,6 +35,33 @@ pub fn buckle(document: &Value, make: &mut Make<'_>) -> Result<Vec<String>, Read
     let parameter = name.and_then(|name| model.parameters.iter().position(|own| own.name == name));
     let buckling = Buckling { parameter, at: number(document, "at"), modes: modes.collect(), solution };
     Ok(vec![modes_svg(&model, &buckling)])
+}
+
+pub fn modes(document: &Value, make: &mut Make<'_>) -> Result<Vec<String>, ReadError> {
+    let model = model_of(document, &[], make)?;
+    let mut solution = solution(document, scene_of(document)?, &model)?;
+    solution.status = status_of(text(document, "status"))?;
+    let kinds = [ModeKind::Rigid, ModeKind::Diverging, ModeKind::Flutter, ModeKind::Decaying];
+    let modes = list(document, "modes").iter().map(|mode| Mode {
+        growth: number(mode, "growth"),
+        rate: number(mode, "rate"),
+        kind: kinds.into_iter().find(|kind| kind.word() == text(mode, "kind")).unwrap_or(ModeKind::Swinging),
+        error_estimate: number(mode, "error_estimate"),
+        generalised_mass: number(mode, "generalised_mass"),
+        shares: None,
+        direction: direction(&mode["shape"], &model),
+        quadrature: None,
+        nodes: Vec::new(),
+    });
+    let modes = Modes {
+        modes: modes.collect(),
+        solution,
+        at_rest: document.get("at_rest").and_then(Value::as_bool).unwrap_or(false),
+        mass: [0.0; 3],
+        inertia: [0.0; 3],
+        elements: [0; 2],
+    };
+    Ok(vec![vibration_svg(&model, &modes)])
 }
 
 /// The scene that a document or a point of one holds.

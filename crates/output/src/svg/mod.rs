@@ -15,6 +15,7 @@ mod canvas;
 mod curve;
 mod diagram;
 mod fitted;
+mod frequencies;
 mod gradient;
 mod history;
 mod layout;
@@ -28,9 +29,10 @@ mod stack;
 
 pub use diagram::diagram_svg;
 pub use fitted::{fit_svg, formula_svg};
+pub use frequencies::frequencies_svg;
 pub use history::motion_svg;
 pub use samples::{SampleColumn, SweepView, sweep_svg};
-pub use shapes::{modes_svg, shapes_svg};
+pub use shapes::{modes_svg, shapes_svg, vibration_svg};
 pub use stack::stacked;
 
 use canvas::{Canvas, Style};

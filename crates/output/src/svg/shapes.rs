@@ -9,8 +9,9 @@ use super::scene::{Knot, Scene};
 use super::{COLOURS, FAINT, INK, LONG_NAME, draw_axes, marks, pieces, shortened, subtitle};
 use crate::trace::{TraceView, parameter_of};
 use flexura_model::Model;
-use flexura_solution::{Buckling, Direction, Solution, Status};
+use flexura_solution::{Buckling, Direction, ModeKind, Modes, Solution, Status};
 use flexura_spatial::{Pose, Twist, Vector3, exp};
+use std::f64::consts::TAU;
 
 /// Shapes between the special ones that are drawn at most.
 const MOST: usize = 40;
@@ -120,30 +121,56 @@ fn chosen(states: Vec<State>) -> Vec<State> {
 /// The picture of the modes on the equilibrium about which the problem was linearised; `model` has the parameter's value
 /// there.
 pub fn modes_svg(model: &Model, buckling: &Buckling) -> String {
-    let base = Scene::new(model, &buckling.solution);
-    let [low, high] = base.bounds();
-    let size = (high - low).max();
-    let scenes: Vec<Scene> = buckling
-        .modes
-        .iter()
-        .map(|mode| Scene::new(model, &displaced(&buckling.solution, &mode.direction, size)))
-        .collect();
     let (name, unit) = parameter_of(model, buckling.parameter);
-    let mut entries = vec![Entry::Base(format!("at {}", shown(buckling.at, unit, 4)))];
-    entries.extend(buckling.modes.iter().enumerate().map(|(i, mode)| {
-        let only_turns = largest(&mode.direction, |twist| twist.linear) == 0.0;
-        let remark = if only_turns { " (turns only)" } else { "" };
-        Entry::Mode(i, format!("{}: {}{remark}", i + 1, shown(mode.value, unit, 5)))
-    }));
-    let bounds = joined(scenes.iter().chain([&base]));
-    let sheet = Sheet::of(bounds, LEGEND_LINE * (entries.len() + 1) as f64);
-    let mut canvas = Canvas::new(sheet.width, sheet.height);
     let what = match buckling.parameter {
         Some(_) => format!("critical values of {}", shortened(name, LONG_NAME)),
         None => "critical fractions of the load".to_owned(),
     };
+    let base = format!("at {}", shown(buckling.at, unit, 4));
+    let modes = buckling.modes.iter().map(|mode| (shown(mode.value, unit, 5), &mode.direction));
+    shapes_on(model, &buckling.solution, [what, base], modes.collect())
+}
+
+/// The picture of natural modes on the state about which they swing.
+pub fn vibration_svg(model: &Model, modes: &Modes) -> String {
+    let base = if modes.at_rest { "at rest" } else { "at the equilibrium" };
+    let list = modes.modes.iter().map(|mode| {
+        let text = match mode.kind {
+            ModeKind::Rigid => "without stiffness".to_owned(),
+            ModeKind::Diverging => format!("grows, {}", shown(mode.growth, "1/s", 5)),
+            ModeKind::Flutter => format!("flutter, {}", shown(mode.rate / TAU, "Hz", 5)),
+            ModeKind::Swinging | ModeKind::Decaying => shown(mode.rate / TAU, "Hz", 5),
+        };
+        (text, &mode.direction)
+    });
+    shapes_on(model, &modes.solution, ["natural modes".to_owned(), base.to_owned()], list.collect())
+}
+
+/// Shapes on a state, each with its name; `words` say what they are, and what the state is.
+fn shapes_on(
+    model: &Model,
+    solution: &Solution,
+    [what, state]: [String; 2],
+    shapes: Vec<(String, &Direction)>,
+) -> String {
+    let base = Scene::new(model, solution);
+    let [low, high] = base.bounds();
+    let size = (high - low).max();
+    let scenes: Vec<Scene> = shapes
+        .iter()
+        .map(|(_, direction)| Scene::new(model, &displaced(solution, direction, size)))
+        .collect();
+    let mut entries = vec![Entry::Base(state)];
+    entries.extend(shapes.iter().enumerate().map(|(i, (name, direction))| {
+        let only_turns = largest(direction, |twist| twist.linear) == 0.0;
+        let remark = if only_turns { " (turns only)" } else { "" };
+        Entry::Mode(i, format!("{}: {name}{remark}", i + 1))
+    }));
+    let bounds = joined(scenes.iter().chain([&base]));
+    let sheet = Sheet::of(bounds, LEGEND_LINE * (entries.len() + 1) as f64);
+    let mut canvas = Canvas::new(sheet.width, sheet.height);
     let text = format!("{what}; displacements not to scale");
-    head(&mut canvas, &sheet, model, buckling.solution.status, &text);
+    head(&mut canvas, &sheet, model, solution.status, &text);
     for panel in &sheet.panels {
         draw_axes(&mut canvas, &sheet, panel);
         draw_state(&mut canvas, panel, &base, FAINT, 3.0, "");

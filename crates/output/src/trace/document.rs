@@ -198,7 +198,7 @@ fn point_outputs(
     })
 }
 
-fn shape_document(model: &Model, direction: &Direction) -> Result<ShapeDocument, OutputError> {
+pub(crate) fn shape_document(model: &Model, direction: &Direction) -> Result<ShapeDocument, OutputError> {
     let beams = model.beams.iter().zip(&direction.beams);
     let bodies = model.bodies.iter().zip(&direction.bodies);
     Ok(ShapeDocument {
@@ -267,7 +267,7 @@ pub fn buckling_document(
 }
 
 /// The same error with the path to the part of the document that it is in.
-fn inside(path: &str, error: OutputError) -> OutputError {
+pub(crate) fn inside(path: &str, error: OutputError) -> OutputError {
     match error {
         OutputError::NotFinite { field, value } => {
             OutputError::NotFinite { field: format!("{path}.{field}"), value }

@@ -5,6 +5,7 @@ mod table;
 mod wire;
 
 pub use document::{buckling_document, trace_document};
+pub(crate) use document::{inside, shape_document};
 pub(crate) use table::{cell, headed, line, output_headings, reasons};
 pub use table::{critical_csv, modes_csv, path_csv, path_header, path_row};
 pub use wire::{

@@ -87,6 +87,7 @@ pub fn model() -> Model {
                     ga2: None,
                     ga3: None,
                     mass_per_length: None,
+                    rotary_inertia: None,
                 },
                 plane_strain: false,
             },

@@ -19,6 +19,7 @@ use flexura_solution::TracePoint;
 
 pub use branches::{trace, trace_family};
 pub use buckle::{buckle, buckle_family};
+pub(crate) use record::normalise;
 
 /// How far a trace has come.
 #[derive(Clone, Copy, Debug)]

@@ -151,7 +151,7 @@ impl Reader {
 }
 
 /// The largest displacement one metre; where it is nothing beside the turning, the largest turning one radian.
-pub(crate) fn normalise(direction: &mut Direction, length: f64) {
+pub(crate) fn normalise(direction: &mut Direction, length: f64) -> f64 {
     let twists = || direction.beams.iter().flatten().chain(&direction.bodies);
     let shift = twists().map(|t| t.linear.norm()).fold(0.0, f64::max);
     let turn = twists().map(|t| t.angular.norm()).fold(0.0, f64::max);
@@ -162,6 +162,7 @@ pub(crate) fn normalise(direction: &mut Direction, length: f64) {
             twist.angular /= size;
         }
     }
+    size
 }
 
 pub(crate) fn crossing(met: Met) -> Crossing {

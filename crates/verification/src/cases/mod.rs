@@ -10,6 +10,7 @@ mod elastica;
 mod ends;
 mod flexure_order;
 mod flexures;
+mod flutter;
 mod follower;
 mod foundation;
 mod four_bar;
@@ -18,6 +19,9 @@ mod helix_wrench;
 mod joints;
 mod lee_frame;
 mod ligaments;
+mod modes;
+mod modes_curved;
+mod modes_of_mechanisms;
 mod motion;
 mod pushed_strip;
 mod robot;
@@ -71,6 +75,10 @@ pub fn cases() -> Vec<Case> {
         &lee_frame::CASES,
         &unfolding::CASES,
         &verdicts::CASES,
+        &modes::CASES,
+        &modes_curved::CASES,
+        &modes_of_mechanisms::CASES,
+        &flutter::CASES,
         &motion::CASES,
         &rolling::CASES,
         &contact::CASES,

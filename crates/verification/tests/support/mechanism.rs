@@ -146,6 +146,7 @@ fn add_sections(model: &mut Model) {
             ga2: Some(p(90.0)),
             ga3: Some(p(70.0)),
             mass_per_length: Some(p(0.1)),
+            rotary_inertia: None,
         },
         plane_strain: false,
     });

@@ -84,7 +84,7 @@ pub fn in_units(model: &Model, a: f64, b: f64) -> Model {
                 scale(width, a);
                 scale(height, a);
             }
-            Shape::Stiffness { ea, gj, ei2, ei3, ga2, ga3, mass_per_length } => {
+            Shape::Stiffness { ea, gj, ei2, ei3, ga2, ga3, mass_per_length, rotary_inertia: _ } => {
                 scale(ea, b);
                 [gj, ei2, ei3].into_iter().for_each(|profile| scale(profile, b * a * a));
                 [ga2, ga3].into_iter().flatten().for_each(|profile| scale(profile, b));

@@ -1,0 +1,147 @@
+//! What has inertia, at the nodes of elements and on bodies.
+
+use super::cut::Elements;
+use crate::beam::BeamLaw;
+use crate::stability::Motions;
+use crate::system::Equilibrium;
+use flexura_spatial::{Matrix3, Matrix6, Vector3, Vector6, hat};
+
+type V = Vector3<f64>;
+
+/// Inertia of something rigid, nondimensional.
+pub(super) struct Lump {
+    /// In (turning, shift) at `place`, global axes: kinetic energy is half the quadratic form of their rates.
+    pub block: Matrix6<f64>,
+    /// Where the shift is taken.
+    pub place: V,
+    /// How `place` moves along each unknown of the plain tangent.
+    pub motions: Motions,
+}
+
+impl Lump {
+    /// A mass whose centre is `arm` away from `place`, with moments of inertia about that centre.
+    fn new(mass: f64, arm: &V, inertia: &Matrix3<f64>, place: V, motions: Motions) -> Self {
+        let lever = hat(arm) * mass;
+        let mut block = Matrix6::zeros();
+        block.fixed_view_mut::<3, 3>(0, 0).copy_from(&(inertia - lever * hat(arm)));
+        block.fixed_view_mut::<3, 3>(0, 3).copy_from(&lever);
+        block.fixed_view_mut::<3, 3>(3, 0).copy_from(&-lever);
+        block.fixed_view_mut::<3, 3>(3, 3).copy_from(&(Matrix3::identity() * mass));
+        Self { block, place, motions }
+    }
+
+    pub fn mass(&self) -> f64 {
+        self.block[(3, 3)]
+    }
+
+    /// Mass times the place of its centre.
+    pub fn moment(&self) -> V {
+        let lever = self.block.fixed_view::<3, 3>(0, 3);
+        self.place * self.mass() + V::new(lever[(2, 1)], lever[(0, 2)], lever[(1, 0)])
+    }
+
+    /// How it moves when all is shifted along an axis (0 to 2), or turned about one (3 to 5) through `center`.
+    pub fn as_a_whole(&self, axis: usize, center: &V) -> Vector6<f64> {
+        let mut unit = V::zeros();
+        unit[axis % 3] = 1.0;
+        let (turn, shift) =
+            if axis < 3 { (V::zeros(), unit) } else { (unit, unit.cross(&(self.place - center))) };
+        Vector6::new(turn.x, turn.y, turn.z, shift.x, shift.y, shift.z)
+    }
+}
+
+impl Equilibrium {
+    /// Mass of 1, kg: that of everything; 1 kg where nothing has any.
+    pub(super) fn mass_unit(&self) -> f64 {
+        let bodies: f64 = self.model.bodies.iter().map(|body| body.mass).sum();
+        let lumped: f64 = self.model.masses.iter().map(|mass| mass.mass).sum();
+        let beams: f64 =
+            self.lowered.beams.iter().map(|law| law.mass_at(0.5 * law.length).0 * law.length).sum();
+        let all = bodies + lumped + beams;
+        if all > 0.0 && all.is_finite() { all } else { 1.0 }
+    }
+
+    /// ω² of 1, rad²/s²: F/(m L).
+    pub(super) fn square_unit(&self) -> f64 {
+        let scale = self.lowered.scale;
+        scale.force / (self.mass_unit() * scale.length)
+    }
+
+    /// Mass per length and moments of inertia per length about the section's axes, nondimensional.
+    pub(super) fn scaled_inertia(&self, law: &BeamLaw, s: f64) -> (f64, [f64; 3]) {
+        let (mass, rotary) = law.mass_at(s);
+        let (unit, length) = (self.mass_unit(), law.scale.length);
+        (mass * length / unit, rotary.map(|moment| moment / (unit * length)))
+    }
+
+    /// Everything that has inertia.
+    pub(super) fn lumps(&self, spans: &[Elements]) -> Vec<Lump> {
+        let mut lumps = Vec::new();
+        for (span, own) in spans.iter().enumerate() {
+            self.along(span, own, &mut lumps);
+        }
+        let (unit, length) = (self.mass_unit(), self.lowered.scale.length);
+        for (node, body) in self.model.bodies.iter().enumerate() {
+            let pose = self.node_pose(Some(node));
+            let rotation = pose.rotation.to_rotation_matrix().into_inner();
+            let inertia = rotation * body.inertia * rotation.transpose() / (unit * length * length);
+            let arm = rotation * body.center_of_mass / length;
+            let first = self.layout.nodes[node].unknown;
+            let motions = (0..6).map(|i| (first + i, Vector6::ith(i, 1.0))).collect();
+            lumps.push(Lump::new(body.mass / unit, &arm, &inertia, pose.position, motions));
+        }
+        for mass in &self.model.masses {
+            let beam = mass.point.beam.0;
+            let whole = self.lowered.beams[beam].length;
+            let s = mass.point.at.arc_length(whole);
+            let tiny = 1e-9 * whole;
+            let holds = |span: &usize| {
+                let description = &self.lowered.spans[*span];
+                description.beam == beam && s >= description.s[0] - tiny && s <= description.s[1] + tiny
+            };
+            let Some(span) = (0..spans.len()).find(holds) else { continue };
+            let own = &spans[span];
+            let Some(e) = own.list.iter().position(|element| s <= element.s[1] + tiny) else { continue };
+            let node = if s <= own.list[e].s[0] + tiny { 0 } else { own.rule.order };
+            let place = own.list[e].places[node];
+            let motions = self.node_motions(span, own, e, node);
+            lumps.push(Lump::new(mass.mass / unit, &V::zeros(), &Matrix3::zeros(), place, motions));
+        }
+        lumps.retain(|lump| lump.block != Matrix6::zeros());
+        lumps
+    }
+
+    /// How a node of an element moves.
+    pub(super) fn node_motions(&self, span: usize, own: &Elements, element: usize, node: usize) -> Motions {
+        if let Some(first) = own.node(element, node) {
+            return (0..6).map(|i| (first + i, Vector6::ith(i, 1.0))).collect();
+        }
+        let (slots, description) = (&self.layout.spans[span], &self.lowered.spans[span]);
+        match (node, &description.end) {
+            (0, _) => self.end_motions(&self.held_by(&description.start, &slots.start), &slots.start),
+            (_, Some(end)) => self.end_motions(&self.held_by(end, &slots.end), &slots.end),
+            (_, None) => Motions::new(),
+        }
+    }
+
+    /// The inertia along a span, by Gauss-Lobatto sums.
+    fn along(&self, span: usize, own: &Elements, lumps: &mut Vec<Lump>) {
+        let law = &self.lowered.beams[self.lowered.spans[span].beam];
+        for (e, element) in own.list.iter().enumerate() {
+            let [a, b] = element.s;
+            let half = 0.5 * (b - a) / law.scale.length;
+            // A hair inside, so that a jump at an end is seen from the element's own side.
+            let inset = 1e-12 * (b - a);
+            for (node, (x, weight)) in own.rule.nodes.iter().zip(&own.rule.node_weights).enumerate() {
+                let s = (a + (b - a) * 0.5 * (1.0 + x)).clamp(a + inset, b - inset);
+                let (mass, rotary) = self.scaled_inertia(law, s);
+                let weight = half * weight;
+                let rotation = &element.rotations[node];
+                let turned = rotation * Matrix3::from_diagonal(&V::from(rotary)) * rotation.transpose();
+                let motions = self.node_motions(span, own, e, node);
+                let place = element.places[node];
+                lumps.push(Lump::new(mass * weight, &V::zeros(), &(turned * weight), place, motions));
+            }
+        }
+    }
+}

@@ -1,0 +1,366 @@
+//! Natural frequencies and shapes about an equilibrium, or about the state at rest.
+//!
+//! Beams are cut into elements of high order on the solved shape (`flexura_equilibrium::Vibration`). What is found with elements that
+//! resolve the waves of the highest frequency wanted is found again with elements of higher order, until both agree: the error falls
+//! like the 2p-th power of the element's length, so that their difference bounds what is left.
+
+mod along;
+mod pencil;
+mod reading;
+mod unsymmetric;
+
+pub use along::modes_along;
+
+use crate::{Options, Prepared, ProblemError, Progress};
+use flexura_equilibrium::{Detail, Equilibrium, Footing, Vibration};
+use flexura_model::{Model, ModesStudy, StudyKind};
+use flexura_nonlinear::{Breakdown, PathOptions, System};
+use flexura_solution::{Modes, Solution, Status};
+use nalgebra::Complex;
+use pencil::{Pair, Shifted, Trouble};
+use unsymmetric::Wave;
+
+/// Orders of elements, from the first try on.
+const ORDERS: [usize; 5] = [8, 10, 13, 16, 20];
+/// Phase of the highest wave along one element, rad.
+const PHASE: f64 = 4.5;
+/// By how much more ω² than the highest found is resolved.
+const BEYOND: f64 = 1.2;
+/// Relative difference of ω² at which two orders agree.
+const AGREE: f64 = 2e-10;
+/// The same from which a frequency is doubtful.
+const DOUBTFUL: f64 = 1e-6;
+/// ω² beside what cancels in it, from which on it is none.
+const NOTHING: f64 = 1e-12;
+/// ω² beside the largest found that may be nothing.
+const FAINT: f64 = 1e-6;
+/// Relative difference between two shifts up to which a small ω² is something.
+const SURE: f64 = 1e-3;
+/// Rounds in which motions without stiffness make room for others.
+const ROUNDS: usize = 3;
+/// Tolerance of the equilibrium, if that is less than what was asked for.
+const SHAPE: f64 = 1e-10;
+/// Accuracy of the mesh at rest.
+const REST: f64 = 1e-12;
+/// Residual at which the state at rest is the equilibrium.
+const BALANCED: f64 = 1e-10;
+
+/// Natural frequencies and shapes.
+///
+/// # Errors
+/// A model that describes no solvable mechanism, one without inertia or without an energy.
+pub fn modes(
+    model: &Model,
+    study: &ModesStudy,
+    options: &Options,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Modes, ProblemError> {
+    crate::trace::check_study(model, StudyKind::Modes(*study))?;
+    if study.path.is_some() {
+        // One state is not what was asked for.
+        return Err(ProblemError::new(
+            "study",
+            "follows frequencies along a path, not about one equilibrium",
+            "call `modes_along`, or run the study with the command",
+        ));
+    }
+    let (mut prepared, mut solution, at_rest) = stand(model, study, options, progress)?;
+    let empty = |solution: Solution| Modes {
+        solution,
+        at_rest,
+        modes: Vec::new(),
+        mass: [0.0; 3],
+        inertia: [0.0; 3],
+        elements: [0; 2],
+    };
+    if solution.status != Status::Converged {
+        return Ok(empty(solution));
+    }
+    refuse(prepared.problem())?;
+    let found = match spectrum(prepared.problem(), study.count, None) {
+        Ok(found) => found,
+        Err(Trouble::Breakdown(Breakdown::Interrupted)) => {
+            solution.status = Status::Interrupted;
+            solution.reason = Some("interrupted before the modes were found".to_string());
+            return Ok(empty(solution));
+        }
+        Err(trouble) => return Err(explain(&trouble)),
+    };
+    Ok(reading::read(prepared.problem(), solution, at_rest, study, &found))
+}
+
+/// The state about which it vibrates.
+fn stand(
+    model: &Model,
+    study: &ModesStudy,
+    options: &Options,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<(Prepared, Solution, bool), ProblemError> {
+    // Whether anything holds it at rest does not matter.
+    let unheld = || -> Result<Prepared, ProblemError> {
+        let mut problem = Equilibrium::new(model)?;
+        problem.heed(&options.interrupt);
+        // Loops that are held twice are found.
+        problem.footing()?;
+        problem.refine_path(REST);
+        problem.rest();
+        Ok(Prepared { problem, path: PathOptions::default(), border: None, footing: Footing::Firm })
+    };
+    let at_rest = |load: f64| -> Result<Option<(Prepared, Solution)>, ProblemError> {
+        let mut prepared = unheld()?;
+        let problem = &mut prepared.problem;
+        problem.set_load(load);
+        if load > 0.0 && problem.residual_size() > BALANCED {
+            return Ok(None);
+        }
+        let mut solution = problem.solution(options.samples);
+        solution.status = Status::Converged;
+        solution.error_estimate = 0.0;
+        prepared.judge(&mut solution);
+        Ok(Some((prepared, solution)))
+    };
+    if study.at_rest
+        && let Some((prepared, solution)) = at_rest(0.0)?
+    {
+        return Ok((prepared, solution, true));
+    }
+    // What nothing loads is at rest, whether something holds it or not.
+    if model.validate_mechanism().is_empty()
+        && let Some((prepared, solution)) = at_rest(1.0)?
+    {
+        return Ok((prepared, solution, true));
+    }
+    if let Some(from) = &options.from {
+        let mut prepared = unheld()?;
+        if let Some(outcome) = prepared.solve_near(from, options.tolerance.min(SHAPE)) {
+            let solution = prepared.solution(&outcome, options.samples);
+            return Ok((prepared, solution, false));
+        }
+    }
+    let mut prepared = Prepared::new(model)?;
+    prepared.heed(&options.interrupt);
+    let mut outcome = prepared.solve(options.tolerance.min(SHAPE), progress);
+    let interrupted = outcome.status == Status::Interrupted;
+    if outcome.status != Status::Converged && !interrupted && options.tolerance > SHAPE {
+        outcome = prepared.solve(options.tolerance, progress);
+    }
+    let solution = prepared.solution(&outcome, options.samples);
+    Ok((prepared, solution, false))
+}
+
+/// What this version finds no modes of.
+fn refuse(problem: &Equilibrium) -> Result<(), ProblemError> {
+    match problem.without_vibration() {
+        Some(why) => {
+            Err(ProblemError::new("study", format!("finds no modes: {why}"), "leave them out, or the study"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// What was found at one state.
+pub(crate) struct Spectrum {
+    pub vibration: Vibration,
+    pub order: usize,
+    pub waves: Vec<Wave>,
+    /// Is there an energy, so that ω² are real and counted?
+    pub has_energy: bool,
+    /// Relative errors of ω².
+    pub errors: Vec<f64>,
+    /// Were fewer found than asked for?
+    pub exhausted: bool,
+}
+
+/// The lowest modes of the present state: all motions without stiffness and `count` more. `near` is the highest ω² (rad²/s²) that
+/// is expected.
+fn spectrum(problem: &mut Equilibrium, count: usize, near: Option<f64>) -> Result<Spectrum, Trouble> {
+    let mut detail = Detail { order: ORDERS[0], square: near.unwrap_or(0.0), phase: PHASE };
+    let mut before: Option<Found> = None;
+    for &order in ORDERS.iter().chain(&ORDERS[1..]) {
+        detail.order = order;
+        let hint = before.as_ref().map_or(-1.0, |found| found.below());
+        let mut found = Found::new(problem, &detail, count, hint)?;
+        if before.is_none() {
+            // The first look says how short the waves are.
+            let square = BEYOND * found.highest() * found.vibration.unit;
+            if square > detail.square {
+                detail.square = square;
+                let elements = found.vibration.elements;
+                let hint = found.below();
+                let finer = Found::new(problem, &detail, count, hint)?;
+                if finer.vibration.elements > elements {
+                    found = finer;
+                }
+            }
+        }
+        let errors = before.as_ref().map(|before| found.errors(before));
+        if let Some(errors) = errors
+            && (errors.iter().all(|error| *error <= AGREE) || order == ORDERS[4])
+        {
+            let agree = errors.iter().all(|error| *error <= DOUBTFUL);
+            if agree || detail.phase < 0.6 * PHASE {
+                let exhausted = found.waves.len() < count + found.rigid();
+                let has_energy = found.has_energy;
+                let Found { vibration, waves, .. } = found;
+                return Ok(Spectrum { vibration, order, waves, has_energy, errors, exhausted });
+            }
+            detail.phase *= 0.5;
+        }
+        before = Some(found);
+    }
+    Err(Trouble::Missing)
+}
+
+/// A shift below ω² that are known roughly.
+fn shift_below(squares: &[f64]) -> f64 {
+    let first = squares.iter().copied().fold(f64::INFINITY, f64::min).min(1e300);
+    let next = squares.iter().map(|square| square.abs()).find(|square| *square > 0.0).unwrap_or(1.0);
+    if first < 1e300 { first - 0.3 * first.abs().max(next) } else { -1.0 }
+}
+
+/// The lowest modes with elements of one kind.
+struct Found {
+    vibration: Vibration,
+    waves: Vec<Wave>,
+    has_energy: bool,
+}
+
+impl Found {
+    fn new(problem: &mut Equilibrium, detail: &Detail, count: usize, hint: f64) -> Result<Self, Trouble> {
+        let vibration = problem.vibration(detail)?;
+        if vibration.inertia.is_empty() {
+            return Err(Trouble::Weightless);
+        }
+        let has_energy = problem.without_energy().is_none();
+        let named = |trouble: Trouble| match trouble {
+            Trouble::Massless(x) => Trouble::Loose(problem.loosest(&vibration, &x)),
+            other => other,
+        };
+        let waves = if has_energy {
+            let pairs = counted(&vibration, count, hint).map_err(named)?;
+            let real =
+                |(square, x): Pair| Wave { square: Complex::new(square, 0.0), vector: [x, Vec::new()] };
+            pairs.into_iter().map(real).collect()
+        } else {
+            complex(&vibration, count, hint).map_err(named)?
+        };
+        Ok(Self { vibration, waves, has_energy })
+    }
+
+    /// A shift for the next look.
+    fn below(&self) -> f64 {
+        let squares: Vec<f64> = self.waves.iter().map(|wave| wave.square.re).collect();
+        if self.has_energy {
+            return shift_below(&squares);
+        }
+        -0.3 * squares.iter().map(|square| square.abs()).find(|square| *square > 0.0).unwrap_or(1.0)
+    }
+
+    fn highest(&self) -> f64 {
+        self.waves.iter().map(|wave| wave.square.re).fold(0.0, f64::max)
+    }
+
+    fn rigid(&self) -> usize {
+        self.waves.iter().filter(|wave| wave.square == Complex::new(0.0, 0.0)).count()
+    }
+
+    /// Relative differences of ω².
+    fn errors(&self, before: &Self) -> Vec<f64> {
+        let each = self.waves.iter().map(|wave| {
+            let size = wave.square.norm_sqr().sqrt();
+            let apart = |other: &Wave| (other.square - wave.square).norm_sqr().sqrt();
+            let nearest = before.waves.iter().map(apart).fold(f64::INFINITY, f64::min);
+            if size == 0.0 { 0.0 } else { nearest / size }
+        });
+        each.collect()
+    }
+}
+
+/// The lowest ω² of a mechanism that has an energy, all of them.
+fn counted(vibration: &Vibration, count: usize, hint: f64) -> Result<Vec<Pair>, Trouble> {
+    let mut shifted = Shifted::new(vibration);
+    let mut pairs = shifted.lowest(count, hint)?;
+    settle_rigid(vibration, &mut pairs);
+    for _ in 0..ROUNDS {
+        let scale = pairs.iter().map(|(square, _)| square.abs()).fold(0.0, f64::max);
+        let small = pairs.iter().filter(|(square, _)| square.abs() <= FAINT * scale).count();
+        if small == 0 {
+            break;
+        }
+        // From another shift round-off makes something else of nothing, and softness stays what it is.
+        let below = pairs.first().map_or(0.0, |(square, _)| square.min(0.0));
+        let next = pairs.iter().map(|(square, _)| *square).find(|square| *square > FAINT * scale);
+        let hint = 1.7 * below - 0.4 * next.unwrap_or(1.0);
+        let mut again = shifted.lowest(count + small, hint)?;
+        settle_rigid(vibration, &mut again);
+        for (i, (square, _)) in again.iter_mut().enumerate().take(small) {
+            let apart = pairs.get(i).map_or(f64::INFINITY, |(before, _)| (*square - before).abs());
+            if apart > SURE * square.abs() {
+                *square = 0.0;
+            }
+        }
+        again.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let same = again.len() == pairs.len();
+        pairs = again;
+        if same {
+            break;
+        }
+    }
+    Ok(pairs)
+}
+
+/// The lowest ω² by their size of a mechanism without an energy.
+fn complex(vibration: &Vibration, count: usize, hint: f64) -> Result<Vec<Wave>, Trouble> {
+    let mut waves = unsymmetric::nearest(vibration, count + 2, hint)?;
+    waves.sort_by(|a, b| {
+        let size = |wave: &Wave| wave.square.norm_sqr();
+        let (a, b) = (a, b);
+        if (size(a) / size(b) - 1.0).abs() < 1e-9 {
+            b.square.im.total_cmp(&a.square.im)
+        } else {
+            size(a).total_cmp(&size(b))
+        }
+    });
+    // A conjugate pair is not torn apart.
+    let torn = waves.get(count.wrapping_sub(1)).is_some_and(|wave| wave.square.im > 0.0);
+    waves.truncate(count + usize::from(torn));
+    Ok(waves)
+}
+
+/// ω² of motions without stiffness are zero, not what round-off leaves of them.
+fn settle_rigid(vibration: &Vibration, pairs: &mut [Pair]) {
+    for (square, x) in pairs.iter_mut() {
+        let cancels: f64 =
+            vibration.stiffness.iter().map(|(i, j, value)| (value * x[*i] * x[*j]).abs()).sum();
+        if square.abs() <= NOTHING * cancels {
+            *square = 0.0;
+        }
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+}
+
+fn explain(trouble: &Trouble) -> ProblemError {
+    let wrong = |message: String, hint: &str| ProblemError::new("study", message, hint);
+    match trouble {
+        Trouble::Weightless => wrong(
+            "finds no modes: nothing that moves has a mass".to_string(),
+            "give materials a `density`, stiffness sections a `mass_per_length`, bodies a `mass`",
+        ),
+        Trouble::Loose(name) => {
+            let what = name.clone().unwrap_or_else(|| "something".to_string());
+            wrong(
+                format!("finds no modes: {what} moves without stiffness and without inertia"),
+                "give it a mass and an `inertia`, or hold it",
+            )
+        }
+        Trouble::Bottomless => wrong(
+            "finds no modes: something without inertia is unstable".to_string(),
+            "give all that moves an inertia",
+        ),
+        Trouble::Missing | Trouble::Massless(_) | Trouble::Breakdown(_) => wrong(
+            "finds no modes to be relied on: stiffnesses or masses lie too many orders of magnitude apart"
+                .to_string(),
+            "ask for fewer modes, or make rigid what is all but rigid",
+        ),
+    }
+}

@@ -1,0 +1,166 @@
+//! From vectors of the pencil to modes.
+
+use super::Spectrum;
+use crate::trace::normalise;
+use flexura_equilibrium::{Equilibrium, Swing};
+use flexura_model::ModesStudy;
+use flexura_solution::{Direction, Followed, Mode, ModeKind, Modes, Shares, Solution};
+use flexura_spatial::Vector3;
+use nalgebra::Complex;
+
+/// Motion of a beam beside the largest of the mode below which it stands still.
+const STILL: f64 = 1e-6;
+/// Relative error of ω² by the equilibrium's own error: the spectrum goes with its wrenches.
+const OF_STATE: f64 = 4.0;
+
+pub(super) fn read(
+    problem: &Equilibrium,
+    mut solution: Solution,
+    at_rest: bool,
+    study: &ModesStudy,
+    found: &Spectrum,
+) -> Modes {
+    let vibration = &found.vibration;
+    let mut modes = Vec::with_capacity(found.waves.len());
+    for (wave, error) in found.waves.iter().zip(&found.errors) {
+        let [x, aside] = &wave.vector;
+        let swing = problem.swing(vibration, x);
+        let mut direction = shape(&solution, &swing);
+        let size = normalise(&mut direction, vibration.length);
+        let energy: f64 = vibration.inertia.iter().map(|(i, j, value)| value * x[*i] * x[*j]).sum();
+        // x moves by length and turning 1; the shape was divided by its size (m or rad).
+        let unit = vibration.mass * vibration.length * vibration.length;
+        let generalised_mass = unit * energy / (size * size);
+        let mut participation = [0.0; 6];
+        for (axis, share) in participation.iter_mut().enumerate() {
+            let dot: f64 = vibration.rigid[axis].iter().zip(x).map(|(a, b)| a * b).sum();
+            let per = if axis < 3 { vibration.mass * vibration.length } else { unit };
+            *share = per * dot / size / generalised_mass;
+        }
+        let effective = participation.map(|share| share * share * generalised_mass);
+        let (growth, rate, kind) = motion(wave.square * Complex::new(vibration.unit, 0.0));
+        let own = if kind == ModeKind::Rigid { 0.0 } else { OF_STATE * solution.error_estimate };
+        let quadrature = (wave.square.im != 0.0).then(|| {
+            let mut shape = shape(&solution, &problem.swing(vibration, aside));
+            for twist in shape.beams.iter_mut().flatten().chain(&mut shape.bodies) {
+                twist.linear /= size;
+                twist.angular /= size;
+            }
+            shape
+        });
+        modes.push(Mode {
+            growth,
+            rate,
+            kind,
+            error_estimate: 0.5 * error.max(1e-13) + own,
+            generalised_mass,
+            shares: found.has_energy.then_some(Shares { participation, effective }),
+            nodes: nodes(problem, &swing, size),
+            direction,
+            quadrature,
+        });
+    }
+    let first = |range: std::ops::Range<usize>| std::array::from_fn(|i| vibration.whole[range.start + i]);
+    if found.exhausted {
+        let count = modes.iter().filter(|mode| !mode.is_rigid()).count();
+        solution.warnings.push(format!("{} modes were asked for; there are {count}", study.count));
+    }
+    let unstable = modes.iter().filter(|mode| mode.growth > 0.0).count();
+    if !found.has_energy && unstable > 0 {
+        let flutters = modes.iter().filter(|mode| mode.kind == ModeKind::Flutter).count();
+        let how = match (flutters, unstable - flutters) {
+            (0, _) => "diverges",
+            (_, 0) => "flutters",
+            _ => "flutters and diverges",
+        };
+        // Decided by the motion where there is no energy.
+        (solution.stable, solution.unstable_directions) = (Some(false), Some(unstable));
+        solution.stability_reason = None;
+        solution.warnings.push(format!("the equilibrium {how}: {unstable} of these modes grow"));
+    }
+    if let Some(counted) = solution.unstable_directions
+        && counted != unstable
+        && (unstable < modes.len() || counted < unstable)
+    {
+        solution.warnings.push(format!(
+            "{unstable} modes grow, but the equilibrium is counted unstable in {counted} directions: it is all but critical"
+        ));
+    }
+    if unstable > 0 && found.has_energy {
+        solution.warnings.push(format!(
+            "the equilibrium is unstable: of {unstable} modes ω² is negative, and they grow instead of swinging"
+        ));
+    }
+    Modes {
+        solution,
+        at_rest,
+        modes,
+        mass: first(0..3),
+        inertia: first(3..6),
+        elements: [vibration.elements, found.order],
+    }
+}
+
+/// What the modes do, without their shapes.
+pub(super) fn rates(found: &Spectrum) -> Vec<Followed> {
+    let unit = Complex::new(found.vibration.unit, 0.0);
+    let each = found.waves.iter().zip(&found.errors).map(|(wave, error)| {
+        let (growth, rate, kind) = motion(wave.square * unit);
+        Followed { growth, rate, kind, error_estimate: 0.5 * error.max(1e-13) }
+    });
+    each.collect()
+}
+
+/// Growth and rate of exp(s t) with s² = -ω²: of two opposite s the one that grows, but of a conjugate pair of ω² one each.
+fn motion(square: Complex<f64>) -> (f64, f64, ModeKind) {
+    let size = square.norm_sqr().sqrt().sqrt();
+    let half = 0.5 * square.im.atan2(square.re);
+    let (rate, growth) = (size * half.cos(), size * half.sin());
+    match square {
+        Complex { re: 0.0, im: 0.0 } => (0.0, 0.0, ModeKind::Rigid),
+        Complex { re, im: 0.0 } if re > 0.0 => (0.0, size, ModeKind::Swinging),
+        Complex { im: 0.0, .. } => (size, 0.0, ModeKind::Diverging),
+        Complex { im, .. } if im > 0.0 => (growth, rate, ModeKind::Flutter),
+        _ => (growth, rate, ModeKind::Decaying),
+    }
+}
+
+/// The shape at the samples of the state.
+fn shape(solution: &Solution, swing: &Swing) -> Direction {
+    let beams = solution.beams.iter().enumerate();
+    let beams = beams.map(|(i, beam)| beam.samples.iter().map(|sample| swing.beam(i, sample.s)).collect());
+    Direction { beams: beams.collect(), bodies: swing.bodies.clone() }
+}
+
+/// Places along each beam at which it passes through its rest position: where its displacement along the direction in which it moves
+/// most changes its sign, of a beam that moves across that direction nowhere.
+fn nodes(problem: &Equilibrium, swing: &Swing, size: f64) -> Vec<Vec<f64>> {
+    const PLACES: usize = 400;
+    let lengths = problem.beam_lengths();
+    let each = lengths.iter().enumerate().map(|(beam, length)| {
+        let at = |s: f64| -> Vector3<f64> { swing.beam(beam, s).linear };
+        let place = |i: usize| length * i as f64 / PLACES as f64;
+        let most = (0..=PLACES).map(|i| at(place(i))).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+        let Some(most) = most.filter(|most| most.norm() > STILL * size) else { return Vec::new() };
+        let along = most.normalize();
+        let value = |s: f64| along.dot(&at(s));
+        let across = |s: f64| (at(s) - along * value(s)).norm();
+        let mut found = Vec::new();
+        for i in 1..PLACES {
+            let (mut a, mut b) = (place(i), place(i + 1));
+            let (from, to) = (value(a), value(b));
+            if from == 0.0 || from * to >= 0.0 || i + 1 == PLACES && to.abs() < 1e-9 * most.norm() {
+                continue;
+            }
+            for _ in 0..40 {
+                let middle = 0.5 * (a + b);
+                if value(middle) * from > 0.0 { a = middle } else { b = middle }
+            }
+            if across(a) < 1e-3 * most.norm() {
+                found.push(0.5 * (a + b));
+            }
+        }
+        found
+    });
+    each.collect()
+}
