@@ -135,6 +135,7 @@ conforms!(
     modes_of_flexures,
     modes_of_a_platform,
     modes_without_energy,
+    flutter_loads,
 );
 
 #[test]

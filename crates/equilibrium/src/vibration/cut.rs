@@ -92,6 +92,20 @@ struct Wanted {
     state: Plain,
 }
 
+/// All nodes and points of elements: by turns, for between two nodes lies one point.
+fn wanted(borders: &[f64], rule: &Rule, state: Plain) -> Vec<Wanted> {
+    let mut wanted = Vec::new();
+    for pair in borders.windows(2) {
+        let at = |x: &f64| pair[0] + (pair[1] - pair[0]) * 0.5 * (1.0 + x);
+        for (node, point) in rule.nodes.iter().zip(&rule.points) {
+            wanted.push(Wanted { s: at(node), state });
+            wanted.push(Wanted { s: at(point), state });
+        }
+        wanted.push(Wanted { s: pair[1], state });
+    }
+    wanted
+}
+
 impl Equilibrium {
     /// The states of a span at arc lengths in order, before what jumps there, and that at its end after all.
     fn states_at(&self, span: usize, places: &mut [Wanted]) -> Plain {
@@ -191,6 +205,19 @@ impl Equilibrium {
         (turn * whole / TURN).max(growth * whole / GROWTH).max(wave * whole / detail.phase).max(varying)
     }
 
+    /// Arc lengths (m) at which the elements of a span begin and end.
+    fn borders(&self, span: usize, detail: &Detail) -> Vec<f64> {
+        let description = &self.lowered.spans[span];
+        let mut borders = vec![description.s[0]];
+        for pair in description.inside(&self.lowered.beams[description.beam]).windows(2) {
+            let parts = self.phase_of(span, [pair[0], pair[1]], detail).ceil().clamp(1.0, MOST as f64);
+            let at = |i: usize| pair[0] + (pair[1] - pair[0]) * (i as f64 / parts);
+            borders.extend((1..parts as usize).map(at));
+            borders.push(pair[1]);
+        }
+        borders
+    }
+
     /// Cuts a span whose own unknowns begin at `first`.
     pub(super) fn elements(
         &self,
@@ -201,24 +228,8 @@ impl Equilibrium {
     ) -> Result<Elements, Breakdown> {
         let description = &self.lowered.spans[span];
         let law = &self.lowered.beams[description.beam];
-        let mut borders = vec![description.s[0]];
-        for pair in description.inside(law).windows(2) {
-            let parts = self.phase_of(span, [pair[0], pair[1]], detail).ceil().clamp(1.0, MOST as f64);
-            let at = |i: usize| pair[0] + (pair[1] - pair[0]) * (i as f64 / parts);
-            borders.extend((1..parts as usize).map(at));
-            borders.push(pair[1]);
-        }
         let state = self.head_state(span);
-        let mut wanted = Vec::new();
-        for pair in borders.windows(2) {
-            let at = |x: &f64| pair[0] + (pair[1] - pair[0]) * 0.5 * (1.0 + x);
-            // Nodes and points by turns: between two nodes lies one point.
-            for (node, point) in rule.nodes.iter().zip(&rule.points) {
-                wanted.push(Wanted { s: at(node), state });
-                wanted.push(Wanted { s: at(point), state });
-            }
-            wanted.push(Wanted { s: pair[1], state });
-        }
+        let mut wanted = wanted(&self.borders(span, detail), rule, state);
         let end = self.states_at(span, &mut wanted);
         let per = 2 * rule.order + 1;
         let mut found = Vec::with_capacity(wanted.len() / per);

@@ -83,6 +83,7 @@ const MODELS: &[(&str, &str)] = &bundled![
     "right_angle_frame",
     "rigid_four_bar",
     "six_rod_robot",
+    "tuning_fork",
     "universal_shaft",
     "lightest_cantilever",
     "thinnest_clamp",

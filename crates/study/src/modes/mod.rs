@@ -314,7 +314,6 @@ fn complex(vibration: &Vibration, count: usize, hint: f64) -> Result<Vec<Wave>, 
     let mut waves = unsymmetric::nearest(vibration, count + 2, hint)?;
     waves.sort_by(|a, b| {
         let size = |wave: &Wave| wave.square.norm_sqr();
-        let (a, b) = (a, b);
         if (size(a) / size(b) - 1.0).abs() < 1e-9 {
             b.square.im.total_cmp(&a.square.im)
         } else {

@@ -1,6 +1,6 @@
 //! From vectors of the pencil to modes.
 
-use super::Spectrum;
+use super::{Spectrum, Wave};
 use crate::trace::normalise;
 use flexura_equilibrium::{Equilibrium, Swing};
 use flexura_model::ModesStudy;
@@ -12,6 +12,8 @@ use nalgebra::Complex;
 const STILL: f64 = 1e-6;
 /// Relative error of ω² by the equilibrium's own error: the spectrum goes with its wrenches.
 const OF_STATE: f64 = 4.0;
+/// Relative error of ω² by round-off, at least.
+const ROUND_OFF: f64 = 1e-13;
 
 pub(super) fn read(
     problem: &Equilibrium,
@@ -21,52 +23,68 @@ pub(super) fn read(
     found: &Spectrum,
 ) -> Modes {
     let vibration = &found.vibration;
-    let mut modes = Vec::with_capacity(found.waves.len());
-    for (wave, error) in found.waves.iter().zip(&found.errors) {
-        let [x, aside] = &wave.vector;
-        let swing = problem.swing(vibration, x);
-        let mut direction = shape(&solution, &swing);
-        let size = normalise(&mut direction, vibration.length);
-        let energy: f64 = vibration.inertia.iter().map(|(i, j, value)| value * x[*i] * x[*j]).sum();
-        // x moves by length and turning 1; the shape was divided by its size (m or rad).
-        let unit = vibration.mass * vibration.length * vibration.length;
-        let generalised_mass = unit * energy / (size * size);
-        let mut participation = [0.0; 6];
-        for (axis, share) in participation.iter_mut().enumerate() {
-            let dot: f64 = vibration.rigid[axis].iter().zip(x).map(|(a, b)| a * b).sum();
-            let per = if axis < 3 { vibration.mass * vibration.length } else { unit };
-            *share = per * dot / size / generalised_mass;
-        }
-        let effective = participation.map(|share| share * share * generalised_mass);
-        let (growth, rate, kind) = motion(wave.square * Complex::new(vibration.unit, 0.0));
-        let own = if kind == ModeKind::Rigid { 0.0 } else { OF_STATE * solution.error_estimate };
-        let quadrature = (wave.square.im != 0.0).then(|| {
-            let mut shape = shape(&solution, &problem.swing(vibration, aside));
-            for twist in shape.beams.iter_mut().flatten().chain(&mut shape.bodies) {
-                twist.linear /= size;
-                twist.angular /= size;
-            }
-            shape
-        });
-        modes.push(Mode {
-            growth,
-            rate,
-            kind,
-            error_estimate: 0.5 * error.max(1e-13) + own,
-            generalised_mass,
-            shares: found.has_energy.then_some(Shares { participation, effective }),
-            nodes: nodes(problem, &swing, size),
-            direction,
-            quadrature,
-        });
-    }
-    let first = |range: std::ops::Range<usize>| std::array::from_fn(|i| vibration.whole[range.start + i]);
+    let each = found.waves.iter().zip(&found.errors);
+    let modes: Vec<Mode> =
+        each.map(|(wave, error)| mode(problem, &solution, found, wave, *error)).collect();
     if found.exhausted {
         let count = modes.iter().filter(|mode| !mode.is_rigid()).count();
         solution.warnings.push(format!("{} modes were asked for; there are {count}", study.count));
     }
+    remark(&mut solution, &modes, found.has_energy);
+    let [a, b, c, d, e, f] = vibration.whole;
+    let elements = [vibration.elements, found.order];
+    Modes { solution, at_rest, modes, mass: [a, b, c], inertia: [d, e, f], elements }
+}
+
+/// A wave with its shape, scaled, and its masses.
+fn mode(problem: &Equilibrium, solution: &Solution, found: &Spectrum, wave: &Wave, error: f64) -> Mode {
+    let vibration = &found.vibration;
+    let [x, aside] = &wave.vector;
+    let swing = problem.swing(vibration, x);
+    let mut direction = shape(solution, &swing);
+    let size = normalise(&mut direction, vibration.length);
+    let energy: f64 = vibration.inertia.iter().map(|(i, j, value)| value * x[*i] * x[*j]).sum();
+    // x moves by length and turning 1; the shape was divided by its size (m or rad).
+    let unit = vibration.mass * vibration.length * vibration.length;
+    let generalised_mass = unit * energy / (size * size);
+    let participation = std::array::from_fn(|axis| {
+        let dot: f64 = vibration.rigid[axis].iter().zip(x).map(|(a, b)| a * b).sum();
+        let per = if axis < 3 { vibration.mass * vibration.length } else { unit };
+        per * dot / size / generalised_mass
+    });
+    let effective = participation.map(|share| share * share * generalised_mass);
+    let (growth, rate, kind) = motion(wave.square * Complex::new(vibration.unit, 0.0));
+    let own = if kind == ModeKind::Rigid { 0.0 } else { OF_STATE * solution.error_estimate };
+    let quadrature = (wave.square.im != 0.0).then(|| {
+        let mut shape = shape(solution, &problem.swing(vibration, aside));
+        for twist in shape.beams.iter_mut().flatten().chain(&mut shape.bodies) {
+            twist.linear /= size;
+            twist.angular /= size;
+        }
+        shape
+    });
+    Mode {
+        growth,
+        rate,
+        kind,
+        error_estimate: 0.5 * error.max(ROUND_OFF) + own,
+        generalised_mass,
+        shares: found.has_energy.then_some(Shares { participation, effective }),
+        nodes: nodes(problem, &swing, size),
+        direction,
+        quadrature,
+    }
+}
+
+/// What the modes say of stability.
+fn remark(solution: &mut Solution, modes: &[Mode], has_energy: bool) {
     let unstable = modes.iter().filter(|mode| mode.growth > 0.0).count();
-    if !found.has_energy && unstable > 0 {
+    if has_energy && unstable > 0 {
+        solution.warnings.push(format!(
+            "the equilibrium is unstable: of {unstable} modes ω² is negative, and they grow instead of swinging"
+        ));
+    }
+    if !has_energy && unstable > 0 {
         let flutters = modes.iter().filter(|mode| mode.kind == ModeKind::Flutter).count();
         let how = match (flutters, unstable - flutters) {
             (0, _) => "diverges",
@@ -86,19 +104,6 @@ pub(super) fn read(
             "{unstable} modes grow, but the equilibrium is counted unstable in {counted} directions: it is all but critical"
         ));
     }
-    if unstable > 0 && found.has_energy {
-        solution.warnings.push(format!(
-            "the equilibrium is unstable: of {unstable} modes ω² is negative, and they grow instead of swinging"
-        ));
-    }
-    Modes {
-        solution,
-        at_rest,
-        modes,
-        mass: first(0..3),
-        inertia: first(3..6),
-        elements: [vibration.elements, found.order],
-    }
 }
 
 /// What the modes do, without their shapes.
@@ -106,7 +111,7 @@ pub(super) fn rates(found: &Spectrum) -> Vec<Followed> {
     let unit = Complex::new(found.vibration.unit, 0.0);
     let each = found.waves.iter().zip(&found.errors).map(|(wave, error)| {
         let (growth, rate, kind) = motion(wave.square * unit);
-        Followed { growth, rate, kind, error_estimate: 0.5 * error.max(1e-13) }
+        Followed { growth, rate, kind, error_estimate: 0.5 * error.max(ROUND_OFF) }
     });
     each.collect()
 }

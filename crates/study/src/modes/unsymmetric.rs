@@ -29,82 +29,111 @@ pub struct Wave {
 
 /// The `count` ω² nearest to σ, those of a conjugate pair both counted, and their vectors.
 pub fn nearest(vibration: &Vibration, count: usize, sigma: f64) -> Result<Vec<Wave>, Trouble> {
-    let n = vibration.size;
-    let mut matrix = Matrix::default();
-    matrix.arrange(n, &vibration.blocks);
-    matrix.reset();
-    for &(i, j, value) in &vibration.stiffness {
-        matrix.add(i, j, value);
-    }
-    for &(i, j, value) in &vibration.inertia {
-        matrix.add(i, j, -sigma * value);
-    }
-    matrix.factorise()?;
-    let weighed = |x: &DVector<f64>| {
-        let mut out = DVector::zeros(n);
-        vibration.inertia.iter().for_each(|&(i, j, value)| out[i] += value * x[j]);
-        out
-    };
-    let length = |x: &DVector<f64>| x.dot(&weighed(x)).max(0.0).sqrt();
-    let mut space: Vec<DVector<f64>> = Vec::new();
-    let mut heavy: Vec<DVector<f64>> = Vec::new();
-    let mut images: Vec<DVector<f64>> = Vec::new();
-    let (mut next, mut dead, mut since) = (0, 0, 0);
+    let mut space = Space::new(vibration, sigma)?;
+    let (mut dead, mut since) = (0, 0);
     loop {
-        let fresh = space.len() < BLOCK || next >= space.len();
-        let mut candidate = if fresh {
-            let seed = space.len() + 7 * dead;
-            let noise = DVector::from_fn(n, |i, _| ((2.4 * i as f64 + 0.7) * (seed as f64 + 1.3)).sin());
-            let mut x = weighed(&noise);
-            matrix.solve(x.as_mut_slice());
-            x
-        } else {
-            next += 1;
-            images[next - 1].clone()
-        };
-        let before = length(&candidate);
-        for _ in 0..2 {
-            for (q, mq) in space.iter().zip(&heavy) {
-                let part = mq.dot(&candidate);
-                candidate.axpy(-part, q, 1.0);
-            }
-        }
-        let size = length(&candidate);
-        if !size.is_finite() {
-            return Err(Breakdown::NotFinite.into());
-        }
-        let spent = size <= NEW * before || before == 0.0;
-        if spent && fresh {
-            dead += 1;
-        }
-        if !spent {
-            candidate /= size;
-            let mass = weighed(&candidate);
-            let mut image = mass.clone();
-            matrix.solve(image.as_mut_slice());
-            space.push(candidate);
-            heavy.push(mass);
-            images.push(image);
+        let is_fresh = space.vectors.len() < BLOCK || space.next >= space.vectors.len();
+        if space.grow(is_fresh, dead)? {
             since += 1;
+        } else {
+            dead += usize::from(is_fresh);
         }
-        let exhausted = dead > 3 || space.len() >= n;
-        if exhausted || since >= LOOK && space.len() > count + 2 {
+        let exhausted = dead > 3 || space.vectors.len() >= vibration.size;
+        if exhausted || since >= LOOK && space.vectors.len() > count + 2 {
             since = 0;
-            let open: Vec<(usize, f64)> = (next..space.len())
-                .map(|j| {
-                    let mut rest = images[j].clone();
-                    for (q, mq) in space.iter().zip(&heavy) {
-                        let part = mq.dot(&rest);
-                        rest.axpy(-part, q, 1.0);
-                    }
-                    (j, length(&rest))
-                })
-                .collect();
-            let found = project(&heavy, &images, &open, count, sigma).ok_or(Trouble::Missing)?;
+            let open = space.open();
+            let found = project(&space.heavy, &space.images, &open, count, sigma).ok_or(Trouble::Missing)?;
             if found.len() >= count || exhausted {
                 return Ok(found);
             }
         }
+    }
+}
+
+/// A Krylov space, orthonormal with respect to M.
+struct Space<'v> {
+    vibration: &'v Vibration,
+    /// K - σ M, factorised.
+    matrix: Matrix,
+    vectors: Vec<DVector<f64>>,
+    /// M times each.
+    heavy: Vec<DVector<f64>>,
+    /// (K - σ M)⁻¹ M times each.
+    images: Vec<DVector<f64>>,
+    /// Whose image is the next to be taken in.
+    next: usize,
+}
+
+impl<'v> Space<'v> {
+    fn new(vibration: &'v Vibration, sigma: f64) -> Result<Self, Trouble> {
+        let mut matrix = Matrix::default();
+        matrix.arrange(vibration.size, &vibration.blocks);
+        matrix.reset();
+        for &(i, j, value) in &vibration.stiffness {
+            matrix.add(i, j, value);
+        }
+        for &(i, j, value) in &vibration.inertia {
+            matrix.add(i, j, -sigma * value);
+        }
+        matrix.factorise()?;
+        let (vectors, heavy, images) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(Self { vibration, matrix, vectors, heavy, images, next: 0 })
+    }
+
+    fn weighed(&self, x: &DVector<f64>) -> DVector<f64> {
+        let mut out = DVector::zeros(x.len());
+        self.vibration.inertia.iter().for_each(|&(i, j, value)| out[i] += value * x[j]);
+        out
+    }
+
+    fn length(&self, x: &DVector<f64>) -> f64 {
+        x.dot(&self.weighed(x)).max(0.0).sqrt()
+    }
+
+    /// Without what lies along the vectors so far.
+    fn across(&self, mut x: DVector<f64>) -> DVector<f64> {
+        for (q, mq) in self.vectors.iter().zip(&self.heavy) {
+            let part = mq.dot(&x);
+            x.axpy(-part, q, 1.0);
+        }
+        x
+    }
+
+    /// Takes in the next image, or a vector without a history; false where it says nothing new.
+    fn grow(&mut self, is_fresh: bool, dead: usize) -> Result<bool, Trouble> {
+        let candidate = if is_fresh {
+            let seed = (self.vectors.len() + 7 * dead) as f64 + 1.3;
+            let noise = DVector::from_fn(self.vibration.size, |i, _| ((2.4 * i as f64 + 0.7) * seed).sin());
+            let mut x = self.weighed(&noise);
+            self.matrix.solve(x.as_mut_slice());
+            x
+        } else {
+            self.next += 1;
+            self.images[self.next - 1].clone()
+        };
+        let before = self.length(&candidate);
+        let mut candidate = self.across(self.across(candidate));
+        let size = self.length(&candidate);
+        if !size.is_finite() {
+            return Err(Breakdown::NotFinite.into());
+        }
+        if size <= NEW * before || before == 0.0 {
+            return Ok(false);
+        }
+        candidate /= size;
+        let heavy = self.weighed(&candidate);
+        let mut image = heavy.clone();
+        self.matrix.solve(image.as_mut_slice());
+        self.vectors.push(candidate);
+        self.heavy.push(heavy);
+        self.images.push(image);
+        Ok(true)
+    }
+
+    /// What the space does not hold of the images yet.
+    fn open(&self) -> Vec<(usize, f64)> {
+        let rest = |j: usize| (j, self.length(&self.across(self.images[j].clone())));
+        (self.next..self.vectors.len()).map(rest).collect()
     }
 }
 
