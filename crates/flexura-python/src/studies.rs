@@ -6,10 +6,10 @@ use flexura::model::{Model, ModesPath, Study as Described, StudyKind};
 use flexura::modelfile::to_toml;
 use flexura::output::{
     FitView, FormulaView, OptimisationHead, TraceView, critical_csv, diagram_svg, fit_csv, fit_document,
-    fit_svg, formula_c, formula_csv, formula_document, formula_rust, formula_svg, formula_toml, frequencies_csv,
-    frequencies_document, frequencies_svg, front_csv, history_csv, modes_csv, modes_svg, motion_csv,
-    motion_document, motion_svg, path_csv, shape_svg, shapes_svg, to_json, trace_document, vibration_csv,
-    vibration_svg,
+    fit_svg, formula_c, formula_csv, formula_document, formula_rust, formula_svg, formula_toml,
+    frequencies_csv, frequencies_document, frequencies_svg, front_csv, history_csv, modes_csv, modes_svg,
+    motion_csv, motion_document, motion_svg, path_csv, shape_svg, shapes_svg, to_json, trace_document,
+    vibration_csv, vibration_svg,
 };
 use flexura::solution::Status;
 use flexura::{Buckled, Optimised, Options, Vibrated, motion_view, solve_model};

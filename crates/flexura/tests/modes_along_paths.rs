@@ -1,5 +1,8 @@
 //! Natural frequencies along paths of equilibria.
 
+// Clippy takes helpers of tests for code that must not panic.
+#![allow(clippy::unwrap_used)]
+
 use flexura::model::{Model, ModesPath, ModesStudy, Shape, StudyKind};
 use flexura::modelfile::Document;
 use flexura::solution::{Followed, ModesAlong, PointKind, Status};

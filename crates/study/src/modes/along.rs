@@ -108,6 +108,9 @@ struct Walk<'a> {
     near: Option<f64>,
 }
 
+/// A spectrum, with the shapes by which its modes are told again.
+type Seen = (Spectrum, Vec<Vec<f64>>);
+
 impl Walk<'_> {
     /// The modes at a point of the path, found again from its shape, with what tells their shapes; None where the point is critical.
     fn at(
@@ -115,7 +118,7 @@ impl Walk<'_> {
         parameter: usize,
         point: &TracePoint,
         from: &Solution,
-    ) -> Result<Option<(Spectrum, Vec<Vec<f64>>)>, ProblemError> {
+    ) -> Result<Option<Seen>, ProblemError> {
         use crate::Family;
         let model = ModelFamily::new(self.model).model(&[(parameter, point.parameter)])?;
         if let Some(prepared) = &mut self.prepared {

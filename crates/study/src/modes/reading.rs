@@ -24,8 +24,7 @@ pub(super) fn read(
 ) -> Modes {
     let vibration = &found.vibration;
     let each = found.waves.iter().zip(&found.errors);
-    let modes: Vec<Mode> =
-        each.map(|(wave, error)| mode(problem, &solution, found, wave, *error)).collect();
+    let modes: Vec<Mode> = each.map(|(wave, error)| mode(problem, &solution, found, wave, *error)).collect();
     if found.exhausted {
         let count = modes.iter().filter(|mode| !mode.is_rigid()).count();
         solution.warnings.push(format!("{} modes were asked for; there are {count}", study.count));

@@ -26,6 +26,9 @@ pub const CASES: [Case; 2] = [
     },
 ];
 
+/// A title, the file by its load, a range around the critical load, and the load and rate that are wanted.
+type Loaded<'a> = (&'a str, &'a dyn Fn(f64) -> String, [f64; 2], [f64; 2]);
+
 fn cantilever(section: &str, load: &str) -> String {
     format!(
         "[section.rod]\nshape = \"stiffness\"\n{section}\nmass_per_length = 1\n[beam.rod]\nsection = \"rod\"\nlength = 1\nextension = false\n\
@@ -119,7 +122,7 @@ fn loads() -> Result<Vec<Row>, String> {
             -p
         )
     };
-    let cases: [(&str, &dyn Fn(f64) -> String, [f64; 2], [f64; 2]); 5] = [
+    let cases: [Loaded<'_>; 5] = [
         ("Beck", &tip, [10.0, 25.0], [20.050953619, 11.015557641]),
         ("Leipholz", &uniform, [20.0, 50.0], [40.053736515, 11.030216995]),
         ("Hauger", &linear, [80.0, 180.0], [150.6415954, 11.485713611]),
