@@ -158,8 +158,11 @@ fn best_of(study: &OptimiseStudy, starts: &[StartEnd]) -> (Status, Option<String
         let reason = end.reason.clone().unwrap_or_default();
         let reason =
             format!("{searches} {not} to a design that meets all constraints; the nearest: {reason}");
-        let status = if end.status == Status::Interrupted { end.status } else { Status::Infeasible };
-        return (status, Some(reason), Some(design.clone()));
+        if end.status == Status::Interrupted {
+            let reason = "interrupted before a design met all constraints; the nearest so far is kept";
+            return (end.status, Some(reason.to_string()), Some(design.clone()));
+        }
+        return (Status::Infeasible, Some(reason), Some(design.clone()));
     }
     let first = starts.first();
     if let Some(interrupted) = starts.iter().find(|end| end.status == Status::Interrupted) {
