@@ -130,7 +130,7 @@ const HEAD: &str = "# Gallery\n\nEvery example that `flexura examples` lists, as
 
 /// A model with studies whose states a page can show shows the first of them.
 fn study(text: &str) -> &'static str {
-    let kinds = ["trace", "buckle", "inverse_dynamics"].map(|word| format!("kind = \"{word}\""));
+    let kinds = ["solve", "trace", "buckle", "modes", "optimise", "inverse_dynamics"].map(|word| format!("kind = \"{word}\""));
     if text.lines().any(|line| kinds.iter().any(|kind| line.starts_with(kind))) { "run" } else { "solve" }
 }
 
@@ -227,8 +227,10 @@ mod tests {
 
     #[test]
     fn a_model_is_told_by_its_first_line() {
-        let text = "# Column on a foundation\n#\n# More.\n\nformat = 1\n[study.path]\n";
+        let text = "# Column on a foundation\n#\n# More.\n\nformat = 1\n[study.path]\nkind = \"trace\"\n";
         assert_eq!((headline(text, "column"), study(text)), ("Column on a foundation", "run"));
+        let fit = "format = 1\n[study.bone]\nkind = \"fit\"\n";
+        assert_eq!(study(fit), "solve");
         assert_eq!((headline("format = 1\n", "plain"), study("format = 1\n")), ("format = 1", "solve"));
         assert_eq!(headline("\n", "plain"), "plain");
     }

@@ -56,6 +56,7 @@ const MODELS: &[(&str, &str)] = &bundled![
     "cross_spring_pivot",
     "deep_arch",
     "clavicle",
+    "bone_bending",
     "column_on_foundation",
     "pendulum",
     "ends_cantilever",
