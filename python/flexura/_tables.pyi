@@ -56,6 +56,7 @@ class Tables:
         GA3: Any = ...,
         matrix: Any = ...,
         mass_per_length: Number = ...,
+        rotary_inertia: Any = ...,
         **keys: Any,
     ) -> Handle:
         """A cross section: e2 runs along the width, e3 along the height. Every dimension may be an expression of
@@ -79,6 +80,7 @@ class Tables:
         matrix: The full symmetric stiffness, from (stretch, shear 2, shear 3, twist, bending 2, bending 3) to (F1,
             F2, F3, M1, M2, M3), instead of the keys above.
         mass_per_length: Mass per length.
+        rotary_inertia: Moments of inertia per length about e1, e2 and e3.
         """
     def beam(
         self,
@@ -396,6 +398,7 @@ class Tables:
         critical: Any = ...,
         at: Number = ...,
         count: Number = ...,
+        at_rest: Any = ...,
         trapezoid: Any = ...,
         knots: Any = ...,
         value: Number = ...,
@@ -405,6 +408,33 @@ class Tables:
         duration: Number = ...,
         samples: Number = ...,
         step: Number = ...,
+        data: Any = ...,
+        unknown: Any = ...,
+        per_specimen: Any = ...,
+        bounds: Any = ...,
+        noise: Any = ...,
+        loss: Any = ...,
+        intervals: Any = ...,
+        confidence: Number = ...,
+        reject: Any = ...,
+        output: Any = ...,
+        of: Any = ...,
+        trace: Any = ...,
+        vary: Any = ...,
+        degree: Number = ...,
+        terms: Any = ...,
+        constant: Any = ...,
+        pieces: Any = ...,
+        minimise: Any = ...,
+        maximise: Any = ...,
+        constraints: Any = ...,
+        stable: Any = ...,
+        starts: Number = ...,
+        seed: Number = ...,
+        method: Any = ...,
+        pareto: Any = ...,
+        tolerance: Number = ...,
+        most_iterations: Number = ...,
         **keys: Any,
     ) -> Handle:
         """What is to be done with the mechanism; `flexura run FILE NAME` does it.
@@ -428,6 +458,7 @@ class Tables:
         critical: Follow a fold or branch point as a second parameter changes.
         at: The parameter's value at the equilibrium; without a parameter, the fraction of the load.
         count: How many critical values, those nearest to `at` first.
+        at_rest: About the state at rest without any load, in place of the equilibrium.
         trapezoid: From rest to rest: speeding up, a constant speed, slowing down.
         knots: Times and values that the parameter passes on a cubic spline, at rest at both ends.
         value: The parameter as a function of the time t in seconds, from t = 0; with `duration`.
@@ -437,4 +468,31 @@ class Tables:
         duration: How long `value` or `rate` last.
         samples: At how many times the mechanism is looked at, both ends included.
         step: In place of `samples`: times are not farther apart than this.
+        data: The measurements: a CSV file beside the model, or a table.
+        unknown: Parameters to be found, the same for all specimens; their own values are the first guess.
+        per_specimen: Parameters to be found for each specimen.
+        bounds: Values between which parameters are looked for.
+        noise: Standard deviations of measured outputs.
+        loss: What a residual costs.
+        intervals: What the intervals of the estimates are found by.
+        confidence: Probability that an interval holds the true value.
+        reject: Leave out specimens that lie outside what the others predict; they are named in any case.
+        output: The output that the formula gives, in SI units or in that of the brackets.
+        of: What goes into it: parameters or outputs, in SI units or those of the brackets.
+        trace: The trace along whose first branch the model is asked.
+        vary: In place of a trace, the grid on which it is asked: from, to, and how many values of each parameter.
+        degree: All products of powers up to this degree.
+        terms: In place of `degree`: its terms, each a product of powers of what goes in, or of absolute values.
+        constant: Has a formula that is given by its degree a constant? True or false.
+        pieces: In place of `degree` and `terms`: one formula after another along what goes in.
+        minimise: What is made least: the name of an output, or a formula over results.
+        maximise: What is made greatest.
+        constraints: What must hold at the optimum.
+        stable: Refuse designs whose equilibrium is unstable.
+        starts: From how many designs is searched: the guess, and others that fill the ranges evenly.
+        seed: Another seed draws other starts.
+        method: How is searched.
+        pareto: A second objective: the front of compromises between the two.
+        tolerance: How well the conditions of an optimum must hold, relative to the ranges and to what is bounded.
+        most_iterations: Most steps of one search.
         """

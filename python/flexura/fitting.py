@@ -146,7 +146,7 @@ class ResponseFormula(Study):
         """A row for each point: what went in, the model's value, the formula's."""
         import pandas
 
-        table = pandas.DataFrame(self.document["points"])
+        table = pandas.DataFrame(dict(self.document["points"]))
         table[self.document["output"]] = self.document["values"]
         table["formula"] = self.document["formula"]
         return table

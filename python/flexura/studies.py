@@ -259,7 +259,8 @@ class Modes(Study):
     def effective_masses(self) -> Array:
         """Effective masses (n, 6): of shifts along x, y, z (kg) and of turnings about them (kg·m²)."""
         none = [np.nan] * 6
-        return np.array([mode["effective_mass"] or none for mode in self.modes], dtype=float).reshape(-1, 6)
+        masses = [none if (own := mode["effective_mass"]) is None else own for mode in self.modes]
+        return np.array(masses, dtype=float).reshape(-1, 6)
 
     def to_pandas(self) -> pandas.DataFrame:
         """A row for each mode."""
