@@ -130,7 +130,8 @@ const HEAD: &str = "# Gallery\n\nEvery example that `flexura examples` lists, as
 
 /// A model with studies whose states a page can show shows the first of them.
 fn study(text: &str) -> &'static str {
-    let kinds = ["solve", "trace", "buckle", "modes", "optimise", "inverse_dynamics"].map(|word| format!("kind = \"{word}\""));
+    let kinds = ["solve", "trace", "buckle", "modes", "optimise", "inverse_dynamics"]
+        .map(|word| format!("kind = \"{word}\""));
     if text.lines().any(|line| kinds.iter().any(|kind| line.starts_with(kind))) { "run" } else { "solve" }
 }
 
