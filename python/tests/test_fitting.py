@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -49,7 +50,8 @@ def test_the_estimate_and_its_error_are_those_of_scipy() -> None:
 
     own = least_squares(residuals, [2.0], jac="3-point", x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-14)
     assert estimate["value"] == pytest.approx(own.x[0] * 1e9, rel=1e-6)
-    variance = 2 * own.cost / (len(data) - 1) / float((own.jac.T @ own.jac)[0, 0])
+    jacobian: Any = own.jac
+    variance = 2 * own.cost / (len(data) - 1) / float((jacobian.T @ jacobian)[0, 0])
     assert estimate["standard_error"] == pytest.approx(np.sqrt(variance) * 1e9, rel=1e-4)
     low, high = estimate["interval"]
     assert low < 2.7816e9 < high
@@ -98,7 +100,7 @@ def test_csv_files_and_lists_are_the_same_measurements(tmp_path: Path) -> None:
         ({"pull [N]": [1.0, 2.0], "tip [mm]": [0.1, None]}, {}, "nothing was measured"),
     ],
 )
-def test_what_is_wrong_is_said(data: dict[str, list[float]], keys: dict[str, str], words: str) -> None:
+def test_what_is_wrong_is_said(data: dict[str, Any], keys: dict[str, Any], words: str) -> None:
     with pytest.raises(fx.ModelError, match=words):
         bone().fit(data, "young", **keys)
 
