@@ -38,6 +38,8 @@ pub(crate) struct Problem<'m> {
     condition: Vec<usize>,
     /// Positions of the measured columns in the components of all outputs.
     components: Vec<usize>,
+    /// Names of the measured columns.
+    names: Vec<String>,
     /// σ of each measured column.
     noise: Vec<f64>,
     /// Rows that count.
@@ -79,6 +81,7 @@ impl<'m> Problem<'m> {
             conditions,
             condition,
             components: components.collect(),
+            names: data.measured.iter().map(|(o, c)| model.output_name(*o, *c)).collect(),
             noise: noise.collect(),
             is_active: data.rows.iter().map(|row| row.weight > 0.0).collect(),
             failed: Vec::new(),
@@ -169,10 +172,10 @@ impl<'m> Problem<'m> {
         for (column, value) in measured.measured.iter().enumerate() {
             let Some(value) = value else { continue };
             let component = self.components[column];
-            let name = || "a measured output".to_string();
+            let name = &self.names[column];
             let computed = answer.values[component]
                 .filter(|v| v.is_finite())
-                .ok_or_else(|| format!("{} has no value there", name()))?;
+                .ok_or_else(|| format!("`{name}` has no value there"))?;
             let unit = self.unit_of(Place { row, column });
             residuals.push((computed - value) / unit);
             if answer.slopes.is_empty() {
@@ -182,7 +185,7 @@ impl<'m> Problem<'m> {
             for (slope, variable) in slopes.iter_mut().zip(&self.variables) {
                 if variable.specimen.is_none_or(|specimen| specimen == measured.specimen) {
                     let own = answer.slopes[component][variable.column];
-                    let own = own.ok_or_else(|| format!("{} has no derivative there", name()))?;
+                    let own = own.ok_or_else(|| format!("`{name}` has no derivative there"))?;
                     *slope = own * variable.size / unit;
                 }
             }
