@@ -4,9 +4,9 @@ use crate::least_squares::{LeastSquaresEnd, LeastSquaresOptions, Loss, Minimum, 
 use crate::problem::{Place, Problem};
 use crate::statistics::{Knowledge, student};
 use crate::{profile, report, specimens};
-use flexura_model::{FitLoss, FitStudy, Model, Study, StudyKind};
+use flexura_model::{FitLoss, FitStudy, Model, StudyKind};
 use flexura_solution::{Estimate, Fit, FitWork, Status};
-use flexura_study::{Options, ProblemError};
+use flexura_study::{Options, ProblemError, check_study};
 use nalgebra::DVector;
 
 /// Relative step at which the search ends, and the part of a standard error that does as well.
@@ -30,10 +30,7 @@ const ROUND_OFF: f64 = 1e-7;
 /// # Errors
 /// The study or the model makes no sense.
 pub fn fit(model: &Model, study: &FitStudy, options: &Options) -> Result<(Fit, Model), ProblemError> {
-    let named = Study { name: "fit".to_string(), kind: StudyKind::Fit(study.clone()) };
-    if let Some(issue) = model.study_issues(&named).into_iter().next() {
-        return Err(ProblemError::new(issue.path, issue.message, issue.hint.unwrap_or_default()));
-    }
+    check_study(model, StudyKind::Fit(study.clone()))?;
     let problem = Problem::new(model, study, options.tolerance * FINER, &options.interrupt)?;
     let bounds = problem.bounds();
     let mut search = Search {

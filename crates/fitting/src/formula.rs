@@ -4,10 +4,10 @@
 //! neighbours), so that the formula does not depend on where the path was looked at; on a grid all count alike.
 
 use crate::conditions::Conditions;
-use flexura_model::{FormulaPiece, FormulaQuantity, FormulaSource, FormulaStudy, Model, Study, StudyKind};
+use flexura_model::{FormulaPiece, FormulaQuantity, FormulaSource, FormulaStudy, Model, StudyKind};
 use flexura_solution::{ResponseFormula, ResponsePiece, ResponsePoint, Status};
 use flexura_spatial::singular_values;
-use flexura_study::{Options, ProblemError, TraceProgress, trace};
+use flexura_study::{Options, ProblemError, TraceProgress, check_study, trace};
 use nalgebra::{DMatrix, DVector};
 
 /// Singular values below this part of the largest tell terms apart no longer.
@@ -34,10 +34,7 @@ pub fn formula(
     options: &Options,
     progress: &mut dyn FnMut(TraceProgress<'_>),
 ) -> Result<ResponseFormula, ProblemError> {
-    let named = Study { name: "formula".to_string(), kind: StudyKind::Formula(study.clone()) };
-    if let Some(issue) = model.study_issues(&named).into_iter().next() {
-        return Err(ProblemError::new(issue.path, issue.message, issue.hint.unwrap_or_default()));
-    }
+    check_study(model, StudyKind::Formula(study.clone()))?;
     let mut asked = match &study.source {
         FormulaSource::Trace(position) => along(model, study, *position, options, progress)?,
         FormulaSource::Grid(axes) => over(model, study, axes, options)?,

@@ -23,7 +23,7 @@ pub use motion::{MotionProgress, inverse_dynamics, inverse_dynamics_family};
 pub use search::equilibria;
 pub use sensitivity::SensitivityError;
 pub use solve::{Options, Outcome, Prepared, Progress, solve, solve_family, solve_model};
-pub use trace::{TraceProgress, buckle, buckle_family, trace, trace_family};
+pub use trace::{TraceProgress, buckle, buckle_family, check_study, trace, trace_family};
 
 use flexura_model::Model;
 

@@ -34,8 +34,11 @@ pub struct TraceProgress<'a> {
     pub found: &'a [TracePoint],
 }
 
-/// A study that does not fit its model.
-pub(crate) fn check_study(
+/// Does a study fit its model?
+///
+/// # Errors
+/// The first thing that is wrong with it, under the path `study`.
+pub fn check_study(
     model: &flexura_model::Model,
     kind: flexura_model::StudyKind,
 ) -> Result<(), crate::ProblemError> {
