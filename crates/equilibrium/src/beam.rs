@@ -333,6 +333,11 @@ impl BeamLaw {
         self.softening = compliance;
     }
 
+    /// Does it stretch more than its section does?
+    pub fn is_softened(&self) -> bool {
+        self.softening != 0.0
+    }
+
     /// Distributed load at `s`, SI, gravity among it.
     fn load_at(&self, s: f64) -> LoadSample {
         let mut sample = LoadSample::default();

@@ -1,6 +1,8 @@
 //! What the mechanism is made of, what is loose in it, and what is held twice.
 
+use crate::coordinates::Coordinates;
 use crate::error::ProblemError;
+use crate::layout::CoordinateSlot;
 use crate::lower::{JointOrigin, NodeOrigin};
 use crate::system::Equilibrium;
 use flexura_model::CoordinateKind;
@@ -30,6 +32,13 @@ pub(crate) const LARGEST_DENSE: usize = 600;
 
 /// Width over thickness from which a strip counts as wide.
 const WIDE: f64 = 10.0;
+
+/// A joint, or an end of a span.
+#[derive(Clone, Copy)]
+pub(crate) enum Told {
+    Joint(usize),
+    Hold(usize, &'static str),
+}
 
 impl Equilibrium {
     pub(crate) fn node_name(&self, node: usize) -> String {
@@ -226,19 +235,7 @@ impl Equilibrium {
     /// Warnings about the state: springs beyond their tables, coordinates beyond their limits.
     pub(crate) fn state_warnings(&self) -> Vec<String> {
         let mut warnings = self.spring_warnings();
-        let spans = self.lowered.spans.iter().zip(&self.layout.spans).enumerate();
-        let holds = spans.flat_map(|(i, (span, slots))| {
-            let end = span
-                .end
-                .as_ref()
-                .map(|end| (format!("{}.end", self.span_name(i)), &end.coordinates, &slots.end));
-            std::iter::once((format!("{}.start", self.span_name(i)), &span.start.coordinates, &slots.start))
-                .chain(end)
-        });
-        let joints = self.lowered.joints.iter().zip(&self.layout.joints).enumerate();
-        let joints =
-            joints.map(|(i, (joint, slots))| (self.joint_name(i), &joint.coordinates, &slots.coordinates));
-        for (name, coordinates, slot) in joints.chain(holds) {
+        for (coordinates, slot, name) in self.told_coordinates() {
             let kinds = coordinates.kind.coordinate_kinds();
             let words = coordinates.kind.coordinate_names();
             for (i, value, range) in coordinates.beyond_limits(&self.configuration(slot)) {
@@ -247,7 +244,8 @@ impl Equilibrium {
                     CoordinateKind::Length => crate::lower::length_text(v),
                 };
                 warnings.push(format!(
-                    "{name}: its {} is {}, outside its limits {} and {}",
+                    "{}: its {} is {}, outside its limits {} and {}",
+                    self.name_of(name),
                     words[i],
                     text(value),
                     text(range[0]),
@@ -257,6 +255,28 @@ impl Equilibrium {
         }
         self.contact_warnings(&mut warnings);
         warnings
+    }
+
+    /// Every joint and hold: its coordinates, where they stand, and what is called by [`Equilibrium::name_of`].
+    pub(crate) fn told_coordinates(&self) -> impl Iterator<Item = (&Coordinates, &CoordinateSlot, Told)> {
+        let joints = self.lowered.joints.iter().zip(&self.layout.joints).enumerate();
+        let joints =
+            joints.map(|(i, (joint, slots))| (&joint.coordinates, &slots.coordinates, Told::Joint(i)));
+        let spans = self.lowered.spans.iter().zip(&self.layout.spans).enumerate();
+        let holds = spans.flat_map(|(i, (span, slots))| {
+            let end = span.end.as_ref();
+            let end = end.map(|end| (&end.coordinates, &slots.end, Told::Hold(i, "end")));
+            std::iter::once((&span.start.coordinates, &slots.start, Told::Hold(i, "start"))).chain(end)
+        });
+        joints.chain(holds)
+    }
+
+    /// What a joint or hold is called.
+    pub(crate) fn name_of(&self, told: Told) -> String {
+        match told {
+            Told::Joint(i) => self.joint_name(i),
+            Told::Hold(span, end) => format!("{}.{end}", self.span_name(span)),
+        }
     }
 }
 

@@ -41,6 +41,7 @@ mod lower;
 mod mesh;
 mod moving;
 mod neighbour;
+mod patch;
 mod prepare;
 mod reach;
 mod redundancy;

@@ -4,15 +4,26 @@ use crate::error::ProblemError;
 use crate::look::Looks;
 use crate::lower::{self, Lowered};
 use crate::mesh::{Cutter, SpanMesh};
+use crate::patch::Patch;
 use crate::system::Equilibrium;
 use flexura_model::{BeamPoint, Model, ProbeTarget, Quantity};
 use flexura_nonlinear::System;
 use flexura_spatial::Vector3;
 use std::sync::Arc;
 
-/// The law of a model in the units, and on the mesh, of the problem that it was made for.
+/// The law of a model in the units, and on the mesh, of the problem that it was made for; good for the law that stood there then.
 #[derive(Clone, Debug)]
-pub struct Law {
+pub struct Law(Kind);
+
+#[derive(Clone, Debug)]
+enum Kind {
+    Whole(Box<Whole>),
+    /// Where every part stays.
+    Patch(Box<Patch>),
+}
+
+#[derive(Clone, Debug)]
+struct Whole {
     model: Model,
     lowered: Lowered,
     meshes: Vec<SpanMesh>,
@@ -42,8 +53,11 @@ impl Equilibrium {
     ///
     /// # Errors
     /// A model that cannot be prepared, or one that is made of other parts.
-    pub fn neighbour(&self, model: Model) -> Result<Law, ProblemError> {
-        self.law_of(model, |_, _| None)
+    pub fn neighbour(&self, model: &Model) -> Result<Law, ProblemError> {
+        match self.patch(model) {
+            Some(patch) => Ok(Law(Kind::Patch(Box::new(patch?)))),
+            None => self.law_of(model.clone(), |_, _| None),
+        }
     }
 
     /// The same for a model in which something may happen along its beams where nothing did, or in another order: a load with a
@@ -115,14 +129,21 @@ impl Equilibrium {
                 "move loads, springs and breaks of sections apart, so that they keep their order",
             ));
         };
-        let mut law = Law { model, lowered, meshes, known_force: Vec::new() };
-        law.known_force = crate::prepare::known_forces(&law.lowered, &law.meshes);
-        Ok(law)
+        let known_force = crate::prepare::known_forces(&lowered, &meshes);
+        Ok(Law(Kind::Whole(Box::new(Whole { model, lowered, meshes, known_force }))))
     }
 
     /// Puts another law under the present state and returns the one that was there. Driven coordinates move to where
     /// the new law wants them; everything else stays.
     pub fn exchange(&mut self, mut law: Law) -> Law {
+        match &mut law.0 {
+            Kind::Whole(whole) => self.exchange_whole(whole),
+            Kind::Patch(patch) => self.exchange_patch(patch),
+        }
+        law
+    }
+
+    fn exchange_whole(&mut self, law: &mut Whole) {
         std::mem::swap(&mut self.model, &mut law.model);
         std::mem::swap(&mut self.lowered, &mut law.lowered);
         std::mem::swap(&mut self.meshes, &mut law.meshes);
@@ -130,6 +151,5 @@ impl Equilibrium {
         self.looks.iter_mut().for_each(Looks::clear);
         let load = self.load;
         self.set_load(load);
-        law
     }
 }

@@ -196,6 +196,12 @@ impl Equilibrium {
 
     /// Changes a point load. The state stays, so that a solve can start from it.
     pub fn set_point_load(&mut self, id: LoadId, force: Vector3<f64>, moment: Vector3<f64>) {
+        self.put_point_load(id, force, moment);
+        self.sum_known_forces();
+    }
+
+    /// The same without the sums that follow from it.
+    pub(crate) fn put_point_load(&mut self, id: LoadId, force: Vector3<f64>, moment: Vector3<f64>) {
         let load = &mut self.model[id];
         load.force = force;
         load.moment = moment;
@@ -218,7 +224,6 @@ impl Equilibrium {
                 }
             }
         }
-        self.sum_known_forces();
     }
 
     /// Changes what drives or loads a joint's coordinate; whether it is driven stays as it is. A driven coordinate moves there

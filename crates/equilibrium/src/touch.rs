@@ -61,23 +61,11 @@ impl Equilibrium {
     /// Universal joints and holds near a right angle, for the reason why a way ended: there the first axis lies along what the joint
     /// carries, and no torque about that passes.
     pub fn locked_joints(&self) -> Vec<String> {
-        let joints = self.lowered.joints.iter().zip(&self.layout.joints).enumerate();
-        let joints =
-            joints.map(|(i, (joint, slots))| (self.joint_name(i), &joint.coordinates, &slots.coordinates));
-        let spans = self.lowered.spans.iter().zip(&self.layout.spans).enumerate();
-        let holds = spans.flat_map(|(i, (span, slots))| {
-            let end = span
-                .end
-                .as_ref()
-                .map(|end| (format!("{}.end", self.span_name(i)), &end.coordinates, &slots.end));
-            std::iter::once((format!("{}.start", self.span_name(i)), &span.start.coordinates, &slots.start))
-                .chain(end)
-        });
-        joints
-            .chain(holds)
-            .filter(|(_, coordinates, _)| coordinates.kind == JointKind::Universal)
-            .filter(|(_, _, slot)| self.configuration(slot)[1].cos().abs() < LOCKED)
-            .map(|(name, ..)| {
+        self.told_coordinates()
+            .filter(|(coordinates, ..)| coordinates.kind == JointKind::Universal)
+            .filter(|(_, slot, _)| self.configuration(slot)[1].cos().abs() < LOCKED)
+            .map(|(.., told)| {
+                let name = self.name_of(told);
                 format!("{name}: its universal joint stands near a right angle, where it lets no torque about its shaft pass")
             })
             .collect()

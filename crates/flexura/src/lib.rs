@@ -187,7 +187,7 @@ pub use flexura_report as report;
 pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;
 pub use flexura_study::{
-    Census, Equilibrium, Evaluation, Evaluator, Family, Interrupt, ModelFamily, MotionProgress, Options,
+    Census, Equilibrium, Evaluation, Evaluator, Family, Interrupt, Law, ModelFamily, MotionProgress, Options,
     Outcome, Prepared, ProblemError, Progress, SensitivityError, TraceProgress, buckle, buckle_family, check,
     equilibria, inverse_dynamics, inverse_dynamics_family, modes, modes_along, solve, solve_family,
     solve_model, trace, trace_family,

@@ -3,7 +3,9 @@
 use crate::model::{Issue, Model};
 use crate::modelfile::suggestion;
 use crate::solution::Status;
-use crate::{Family, Interrupt, ModelFamily, Outcome, Prepared, ProblemError, SampleStatus};
+use crate::{
+    Equilibrium, Family, Interrupt, Law, ModelFamily, Outcome, Prepared, ProblemError, SampleStatus,
+};
 
 /// What a step writes.
 enum Wanted {
@@ -226,6 +228,14 @@ impl Family for Retargeted<'_> {
             target.value = *value;
         }
         Ok(model)
+    }
+
+    fn law(&mut self, problem: &Equilibrium, values: &[(usize, f64)]) -> Result<Law, ProblemError> {
+        let model = self.family.made(values)?;
+        for (target, value) in model.targets.iter_mut().zip(self.targets) {
+            target.value = *value;
+        }
+        problem.neighbour(model)
     }
 
     fn depends_on(&mut self, parameter: usize) -> bool {

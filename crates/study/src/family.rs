@@ -2,7 +2,7 @@
 //!
 //! A model makes the others itself. A study takes another family where numbers change in a way that no formula says.
 
-use flexura_equilibrium::ProblemError;
+use flexura_equilibrium::{Equilibrium, Law, ProblemError};
 use flexura_model::{Binding, Issue, Model, Part};
 
 /// Makes the model again with other values of some parameters: position in [`Model::parameters`] and value (SI).
@@ -13,6 +13,14 @@ pub trait Family {
     /// # Errors
     /// The values make no sound model: a length that is negative, say.
     fn model(&mut self, values: &[(usize, f64)]) -> Result<Model, ProblemError>;
+
+    /// The law of the model with these values, to be put under the state of a problem.
+    ///
+    /// # Errors
+    /// As [`Family::model`], and where the model is made of other parts.
+    fn law(&mut self, problem: &Equilibrium, values: &[(usize, f64)]) -> Result<Law, ProblemError> {
+        problem.neighbour(&self.model(values)?)
+    }
 
     /// Is it certain that only loads and drives of joints hang on this parameter, and these linearly?
     fn is_line(&mut self, _parameter: usize) -> bool {
@@ -34,17 +42,23 @@ impl<F: FnMut(&[(usize, f64)]) -> Result<Model, ProblemError>> Family for F {
 /// The models that a model's own parameters make, by [`Model::at`]: exact, without a text.
 pub struct ModelFamily<'m> {
     model: &'m Model,
+    /// The model made last, in which the next one is made.
+    last: Option<Model>,
 }
 
 impl<'m> ModelFamily<'m> {
     /// The family of a model.
     pub fn new(model: &'m Model) -> Self {
-        Self { model }
+        Self { model, last: None }
     }
 }
 
-impl Family for ModelFamily<'_> {
-    fn model(&mut self, values: &[(usize, f64)]) -> Result<Model, ProblemError> {
+impl ModelFamily<'_> {
+    /// The model with these values, made where the last one was.
+    ///
+    /// # Errors
+    /// As [`Family::model`].
+    pub fn made(&mut self, values: &[(usize, f64)]) -> Result<&mut Model, ProblemError> {
         let given = |(position, _): &(usize, f64)| self.model.parameters.get(*position);
         if let Some(parameter) = values.iter().filter_map(given).find(|parameter| parameter.is_structural) {
             return Err(ProblemError::new(
@@ -61,11 +75,27 @@ impl Family for ModelFamily<'_> {
                 "choose another guess or a range",
             )
         };
-        let model = self.model.at(values).map_err(unsound)?;
-        match model.validate_mechanism().into_iter().next() {
+        let model = self.last.get_or_insert_with(|| self.model.clone());
+        // Values that the last model had and this one has not go back to their own.
+        for (parameter, own) in model.parameters.iter_mut().zip(&self.model.parameters) {
+            parameter.value = own.value;
+            parameter.formula.clone_from(&own.formula);
+        }
+        model.set(values).map_err(unsound)?;
+        match model.validate_beside(self.model).into_iter().next() {
             Some(issue) => Err(unsound(issue)),
             None => Ok(model),
         }
+    }
+}
+
+impl Family for ModelFamily<'_> {
+    fn model(&mut self, values: &[(usize, f64)]) -> Result<Model, ProblemError> {
+        self.made(values).cloned()
+    }
+
+    fn law(&mut self, problem: &Equilibrium, values: &[(usize, f64)]) -> Result<Law, ProblemError> {
+        problem.neighbour(self.made(values)?)
     }
 
     fn is_line(&mut self, parameter: usize) -> bool {

@@ -136,15 +136,24 @@ impl Prepared {
             ..outcome
         };
         let wanted: Vec<f64> = self.model().targets.iter().map(|t| t.value).collect();
-        let start = match self.targets_here() {
-            Ok(start) => start,
-            Err(error) => return stop(Status::Stalled, error.to_string(), outcome),
-        };
+        // Asked for where the whole way cannot be gone at once.
+        let mut start: Option<Vec<f64>> = None;
         let (mut part, mut step) = (0.0, 1.0_f64);
         let mut steps = 0;
         while part < 1.0 {
             let next = if part + step > 1.0 - 1e-9 { 1.0 } else { part + step };
-            let goal: Vec<f64> = start.iter().zip(&wanted).map(|(a, b)| a + next * (b - a)).collect();
+            if next < 1.0 && start.is_none() {
+                start = match self.targets_here() {
+                    Ok(values) => Some(values),
+                    Err(error) => return stop(Status::Stalled, error.to_string(), outcome),
+                };
+            }
+            let goal: Vec<f64> = match &start {
+                Some(start) if next < 1.0 => {
+                    start.iter().zip(&wanted).map(|(a, b)| a + next * (b - a)).collect()
+                }
+                _ => wanted.clone(),
+            };
             let mut kept = Vec::new();
             self.problem.store(&mut kept);
             let values = self.unknown_values();
@@ -197,7 +206,8 @@ impl Prepared {
     ) -> Outcome {
         let mut last = outcome;
         for _ in 0..4 {
-            last = self.finish(tolerance, last.path, f64::INFINITY);
+            // However far that is; the tangent of the last corrections serves on.
+            last = self.finish(tolerance, last.path, f64::MAX);
             if last.status != Status::Converged {
                 return last;
             }
@@ -328,10 +338,8 @@ impl Prepared {
             let h = DIFFERENCE * size;
             let mut laws = Vec::with_capacity(2);
             for sign in [1.0, -1.0] {
-                let model = family
-                    .model(&self.values_with(*parameter, value + sign * h))
-                    .map_err(SensitivityError::Model)?;
-                laws.push((sign, self.problem.neighbour(model).map_err(SensitivityError::Model)?));
+                let values = self.values_with(*parameter, value + sign * h);
+                laws.push((sign, family.law(&self.problem, &values).map_err(SensitivityError::Model)?));
             }
             let mut along = vec![0.0; self.problem.unknowns()];
             let mut step = along.clone();
@@ -406,7 +414,7 @@ impl Prepared {
 
     /// Puts the model with these values under the present state.
     fn put(&mut self, family: &mut dyn Family, values: &[(usize, f64)]) -> Result<(), ProblemError> {
-        let law = self.problem.neighbour(family.model(values)?)?;
+        let law = family.law(&self.problem, values)?;
         self.problem.exchange(law);
         Ok(())
     }

@@ -17,7 +17,7 @@ mod way;
 pub use ending::Ending;
 pub use evaluate::{Evaluation, Evaluator};
 pub use family::{Family, ModelFamily};
-pub use flexura_equilibrium::{Census, Equilibrium, Interrupt, ProblemError};
+pub use flexura_equilibrium::{Census, Equilibrium, Interrupt, Law, ProblemError};
 pub use modes::{modes, modes_along};
 pub use motion::{MotionProgress, inverse_dynamics, inverse_dynamics_family};
 pub use search::equilibria;

@@ -46,8 +46,7 @@ impl Prepared {
     ) -> Result<Beside, SensitivityError> {
         let mut laws = Vec::with_capacity(CENTRAL.len());
         for (place, _) in CENTRAL {
-            let model = family.model(&self.values_with(parameter, value + place * h))?;
-            laws.push(Some(self.problem.neighbour(model)?));
+            laws.push(Some(family.law(&self.problem, &self.values_with(parameter, value + place * h))?));
         }
         Ok(Beside { h, laws })
     }

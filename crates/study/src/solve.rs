@@ -186,7 +186,7 @@ impl Prepared {
     /// # Errors
     /// A model that is made of other parts.
     pub fn adopt(&mut self, model: &Model) -> Result<(), ProblemError> {
-        let law = self.problem.neighbour(model.clone())?;
+        let law = self.problem.neighbour(model)?;
         self.problem.exchange(law);
         self.border = None;
         Ok(())

@@ -11,6 +11,8 @@ mod contact;
 mod spans;
 mod springs;
 
+pub(crate) use springs::link;
+
 use crate::beam::BeamLaw;
 use crate::channel::{Route, TendonChannel};
 use crate::coordinates::Coordinates;
@@ -279,7 +281,7 @@ pub(crate) fn lower(
     }
     for i in 0..model.beams.len() {
         spans::lower_beam(model, &mut lowered, i)?;
-        bounded(model, &lowered, i)?;
+        bounded(model, &lowered.beams[i], i)?;
     }
     for coupling in &model.couplings {
         attachments::lower_coupling(model, &mut lowered, coupling)?;
@@ -298,8 +300,8 @@ pub(crate) fn lower(
 }
 
 /// Refuses a foundation for which a beam would have to be cut into more stretches than a computer holds.
-fn bounded(model: &Model, lowered: &Lowered, beam: usize) -> Result<(), ProblemError> {
-    let growth = lowered.beams[beam].foundation_growth();
+pub(crate) fn bounded(model: &Model, law: &BeamLaw, beam: usize) -> Result<(), ProblemError> {
+    let growth = law.foundation_growth();
     if growth <= LARGEST_GROWTH {
         return Ok(());
     }

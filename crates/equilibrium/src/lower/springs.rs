@@ -11,6 +11,21 @@ use flexura_model::{Attachment, ExponentialForm, Model, Mount, Spring, SpringLaw
 const SAME_LENGTH: f64 = 1e-9;
 
 pub(super) fn lower_spring(lowered: &mut Lowered, spring: &Spring) -> Result<(), ProblemError> {
+    let link = link(lowered, spring)?;
+    if let SpringLaw::Exponential { area, stress, form: ExponentialForm::Printed, .. } = spring.law {
+        lowered.warnings.push(format!(
+            "spring.{}: the printed law jumps from nothing to {:.4} N where the spring becomes taut; there is no equilibrium in \
+             between, and form = \"continuous\" has no jump",
+            spring.name,
+            area * stress * spring.size.powi(2),
+        ));
+    }
+    lowered.springs.push(link);
+    Ok(())
+}
+
+/// A spring between nodes that are there.
+pub(crate) fn link(lowered: &Lowered, spring: &Spring) -> Result<Link, ProblemError> {
     let scale = lowered.scale;
     let path = format!("spring.{}", spring.name);
     let ends = [place(lowered, &spring.from), place(lowered, &spring.to)];
@@ -45,17 +60,9 @@ pub(super) fn lower_spring(lowered: &mut Lowered, spring: &Spring) -> Result<(),
         })?,
         _ => 0.0,
     };
-    if let SpringLaw::Exponential { area, stress, form: ExponentialForm::Printed, .. } = spring.law {
-        lowered.warnings.push(format!(
-            "{path}: the printed law jumps from nothing to {:.4} N where the spring becomes taut; there is no equilibrium in \
-             between, and form = \"continuous\" has no jump",
-            area * stress * spring.size.powi(2),
-        ));
-    }
     let wanted = spring.rest_length.map_or(initial_length, |l| l * spring.size / scale.length);
     let is_loose = wanted > initial_length * (1.0 + SAME_LENGTH);
-    lowered.springs.push(Link { ends, law, rest_length: [initial_length - relaxed, wanted], is_loose, wrap });
-    Ok(())
+    Ok(Link { ends, law, rest_length: [initial_length - relaxed, wanted], is_loose, wrap })
 }
 
 fn no_path(path: &str, error: &PathError, radius: f64, scale: &Scale) -> ProblemError {

@@ -135,7 +135,7 @@ impl<'a> Walker<'a> {
                 ));
             }
         }
-        self.prepared.problem.neighbour(model)
+        self.prepared.problem.neighbour(&model)
     }
 
     /// Newton's method until round-off, starting from what was predicted; the size of the first correction, None where it does not

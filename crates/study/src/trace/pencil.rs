@@ -167,10 +167,8 @@ impl Prepared {
         match study.parameter {
             Some(parameter) => {
                 // Where there is no such model the difference will say so.
-                let Ok(model) = family.model(&self.values_with(parameter, study.at + by)) else {
-                    return false;
-                };
-                let Ok(law) = self.problem.neighbour(model) else { return false };
+                let values = self.values_with(parameter, study.at + by);
+                let Ok(law) = family.law(&self.problem, &values) else { return false };
                 let own = self.problem.exchange(law);
                 self.problem.store(&mut moved);
                 self.problem.exchange(own);
@@ -240,9 +238,8 @@ impl Prepared {
         let load = self.problem.load_fraction();
         let own = match study.parameter {
             Some(parameter) => {
-                let model =
-                    family.model(&self.values_with(parameter, study.at + by)).map_err(Failure::Problem)?;
-                let law = self.problem.neighbour(model).map_err(Failure::Problem)?;
+                let values = self.values_with(parameter, study.at + by);
+                let law = family.law(&self.problem, &values).map_err(Failure::Problem)?;
                 Some(self.problem.exchange(law))
             }
             None => {
