@@ -31,11 +31,24 @@ impl Equilibrium {
     /// outputs ask for and those where something jumps.
     pub fn solution(&mut self, samples: usize) -> Solution {
         let residual = self.residual_size();
-        Solution { residual, ..self.sampled(samples, true, |_| true) }
+        let mut warnings = self.warnings().to_vec();
+        warnings.extend(self.warnings_here());
+        Solution { residual, warnings: summed_up(warnings), ..self.sampled(samples, true, |_| true) }
+    }
+
+    /// What is to be said of the present state: limits passed, contacts that pull, springs beyond their tables.
+    pub fn warnings_here(&mut self) -> Vec<String> {
+        let state = (!self.slack.is_empty()).then(|| self.x.clone());
+        self.least_norm();
+        let warnings = self.state_warnings();
+        if let Some(state) = state {
+            self.x = state;
+        }
+        warnings
     }
 
     /// The same without what was not asked for: only some beams have samples, and the strain energy, which takes an
-    /// integration of its own, may be left out. The residual is not evaluated.
+    /// integration of its own, may be left out. There are no warnings, and the residual is not evaluated.
     pub fn sampled(&mut self, samples: usize, energies: bool, wanted: impl Fn(usize) -> bool) -> Solution {
         let scale = self.lowered.scale;
         // What is read off has the wrenches of least norm; the state itself stays, so that a path goes on from it.
@@ -97,8 +110,6 @@ impl Equilibrium {
                 energy += end.coordinates.energy(&self.configuration(&slots.end), self.load) * scale.moment();
             }
         }
-        let mut warnings = self.warnings().to_vec();
-        warnings.extend(self.state_warnings());
         let (tubes, stored) = self.sample_nests(samples);
         energy += stored * scale.moment();
         let couplings = self.multipliers();
@@ -111,7 +122,7 @@ impl Equilibrium {
             load_fraction: self.load,
             residual: f64::NAN,
             error_estimate: 0.0,
-            warnings: summed_up(warnings),
+            warnings: Vec::new(),
             work: Work {
                 integration_steps: self.total_steps(),
                 segments: self.segments(),

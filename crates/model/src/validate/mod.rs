@@ -182,8 +182,11 @@ impl Model {
             self.check_sections(&mut issues);
             self.beams.iter().for_each(|beam| self.check_beam(beam, &mut issues));
         }
-        if self.joints != sound.joints {
-            self.joints.iter().for_each(|joint| self.check_joint(joint, &mut issues));
+        if self.joints.len() != sound.joints.len() {
+            return self.validate_mechanism();
+        }
+        for (joint, _) in self.joints.iter().zip(&sound.joints).filter(|(a, b)| a != b) {
+            self.check_joint(joint, &mut issues);
         }
         if self.springs != sound.springs {
             self.check_springs(&mut issues);

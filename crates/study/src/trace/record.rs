@@ -69,8 +69,8 @@ impl Reader {
             })
             .collect();
         let mut solution = prepared.problem.sampled(FEW, energies, |beam| beams.contains(&beam));
-        // Those of the mechanism itself come first, and are said of the whole trace.
-        let mut warnings = solution.warnings.split_off(prepared.problem.warnings().len());
+        // Those of the mechanism itself are said of the whole trace.
+        let mut warnings = flexura_solution::summed_up(prepared.problem.warnings_here());
         if let Some((cable, push)) = prepared.problem.slack_cable() {
             warnings.push(format!(
                 "{cable} would have to push with {push:.4e} N to have its length: it is slack there, and the path is not that of a cable"
