@@ -225,6 +225,39 @@ impl Coordinates {
         (out, d)
     }
 
+    /// Does a damper act on a coordinate that is found?
+    pub fn is_damped(&self) -> bool {
+        self.free.iter().any(|i| self.laws[*i].damping != 0.0)
+    }
+
+    /// Efforts against the rates of the unknown coordinates along H, per unit of these; in units of effort times s.
+    pub fn drag(&self, configuration: &Configuration) -> [[f64; MAX_FREEDOMS]; MAX_FREEDOMS] {
+        let mut slope = [0.0; MAX_FREEDOMS];
+        for (slope, law) in slope.iter_mut().zip(&self.laws) {
+            *slope = law.damping;
+        }
+        let (_, tangent) = self.joint.generalised(configuration, &[0.0; MAX_FREEDOMS], &slope);
+        let mut out = [[0.0; MAX_FREEDOMS]; MAX_FREEDOMS];
+        match &self.spin_held {
+            Some(lines) => {
+                // Of a ball all dampers are alike.
+                for (a, x) in lines.iter().enumerate() {
+                    for (b, y) in lines.iter().enumerate() {
+                        out[a][b] = self.laws.first().map_or(0.0, |law| law.damping) * x.dot(y);
+                    }
+                }
+            }
+            None => {
+                for (a, &i) in self.free.iter().enumerate() {
+                    for (b, &j) in self.free.iter().enumerate() {
+                        out[a][b] = tangent[i][j];
+                    }
+                }
+            }
+        }
+        out
+    }
+
     /// ½ Σ k (q - rest)², nondimensional.
     pub fn energy(&self, configuration: &Configuration, load: f64) -> f64 {
         let start = self.joint.coordinates(&self.initial);
@@ -306,6 +339,7 @@ fn scaled(law: &CoordinateLaw, length: f64, effort: f64) -> CoordinateLaw {
         },
         stiffness: law.stiffness * length / effort,
         rest: law.rest / length,
+        damping: law.damping * length / effort,
         limits: law.limits.map(|l| flexura_model::Limits {
             range: l.range.map(|v| v / length),
             stiffness: l.stiffness.map(|k| k * length / effort),

@@ -93,7 +93,7 @@ impl Equilibrium {
 
     /// Tension T along a path of length ℓ(a, b): with a and b the ends in the obstacle's frame, -T ∂ℓ/∂a and -T ∂ℓ/∂b act on
     /// the ends, and the opposite of both, where they act, on what carries the obstacle.
-    fn pull_around(
+    pub(crate) fn pull_around(
         &self,
         link: &Link,
         wrap: &Wrapping,

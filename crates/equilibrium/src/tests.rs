@@ -33,6 +33,7 @@ pub(crate) fn beam(name: &str, start: Option<End>, end: Option<End>) -> Beam {
         curve: Curve::Arc { radius: 1.3, angle: 0.8 },
         frame: SectionFrame::Natural,
         theory: BeamTheory { shear: true, extension: true },
+        damping: 0.0,
         start,
         end,
         distributed: Vec::new(),

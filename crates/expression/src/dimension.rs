@@ -62,6 +62,8 @@ named! {
     COMPLIANCE = (0, -1, 2, 0, 0), "a compliance", "m/N";
     TURN_PER_FORCE = (-1, -1, 2, 0, 1), "an angle per force", "rad/N";
     LENGTH_PER_MOMENT = (-1, -1, 2, 0, 0), "a length per moment", "1/N";
+    DAMPING = (0, 1, -1, 0, 0), "a force per velocity", "N*s/m";
+    ANGULAR_DAMPING = (2, 1, -1, 0, -1), "a moment per angular velocity", "N*m*s/rad";
     ANGULAR_COMPLIANCE = (-2, -1, 2, 0, 1), "an angular compliance", "rad/N/m";
 }
 

@@ -50,6 +50,7 @@ fn shown(mode: Option<&Followed>) -> String {
     match mode.kind {
         ModeKind::Rigid => "0 Hz".to_owned(),
         ModeKind::Diverging => format!("grows {}", quantity(mode.growth, "1/s", 5)),
+        ModeKind::Creeping => format!("creeps {}", quantity(-mode.growth, "1/s", 5)),
         ModeKind::Flutter => format!("{}, flutter", quantity(mode.rate / TAU, "Hz", 6)),
         ModeKind::Swinging | ModeKind::Decaying => quantity(mode.rate / TAU, "Hz", 6),
     }

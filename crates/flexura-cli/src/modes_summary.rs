@@ -29,12 +29,13 @@ pub fn render(model: &Model, modes: &Modes) -> String {
     if modes.modes.is_empty() {
         return text + "\nthere are no modes\n";
     }
+    let is_damped = modes.modes.iter().any(|mode| mode.damping_ratio.is_some());
     let mut table = Table::new(&[
         "modes",
         "frequency",
         "period or rate",
         "generalised mass",
-        "effective mass x, y, z",
+        if is_damped { "damping ratio" } else { "effective mass x, y, z" },
         "relative error",
     ]);
     for (i, mode) in modes.modes.iter().enumerate() {
@@ -56,6 +57,7 @@ fn row(i: usize, mode: &Mode, whole: &[f64; 3]) -> Vec<String> {
         ModeKind::Flutter => {
             (format!("{}, flutter", hertz(mode)), format!("grows {}", quantity(mode.growth, "1/s", 6)))
         }
+        ModeKind::Creeping => ("creeps back".to_owned(), quantity(-mode.growth, "1/s", 6)),
         ModeKind::Decaying => (hertz(mode), format!("decays {}", quantity(-mode.growth, "1/s", 6))),
         ModeKind::Swinging => {
             (hertz(mode), mode.frequency().map_or(String::new(), |f| quantity(1.0 / f, "s", 5)))
@@ -69,6 +71,7 @@ fn row(i: usize, mode: &Mode, whole: &[f64; 3]) -> Vec<String> {
         .chain(&mode.direction.bodies)
         .all(|twist| twist.linear.norm() < 1e-6);
     let mass = quantity(mode.generalised_mass, if turns { "kg*m^2" } else { "kg" }, 5);
+    let ratio = mode.damping_ratio.map(|ratio| number(ratio, 6));
     let shares = mode.shares.as_ref().map_or(String::new(), |own| {
         let part = |axis: usize| match own.effective[axis] / whole[axis] {
             part if part.is_finite() && part >= 5e-5 => format!("{} %", number(100.0 * part, 4)),
@@ -76,7 +79,7 @@ fn row(i: usize, mode: &Mode, whole: &[f64; 3]) -> Vec<String> {
         };
         (0..3).map(part).collect::<Vec<_>>().join(", ")
     });
-    vec![(i + 1).to_string(), frequency, rate, mass, shares, size(mode.error_estimate)]
+    vec![(i + 1).to_string(), frequency, rate, mass, ratio.unwrap_or(shares), size(mode.error_estimate)]
 }
 
 fn hertz(mode: &Mode) -> String {

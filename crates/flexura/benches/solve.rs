@@ -42,6 +42,7 @@ fn cantilever(shape: Shape, curve: Curve, theory: BeamTheory, start: Pose, force
         curve,
         frame: SectionFrame::Natural,
         theory,
+        damping: 0.0,
         start: Some(End { mount: Mount::Ground, placement: Some(start), hold: JointLaw::weld() }),
         end: None,
         distributed: Vec::new(),

@@ -19,6 +19,8 @@ pub struct Beam {
     pub frame: SectionFrame,
     /// Which strains it has.
     pub theory: BeamTheory,
+    /// Time τ by which wrenches run ahead of strains, n = C⁻¹ (γ + τ γ̇) (W. Voigt), s.
+    pub damping: f64,
     /// Where s = 0 is held. None is a free end.
     pub start: Option<End>,
     /// Where s = L is held. None is a free end.

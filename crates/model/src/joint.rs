@@ -155,7 +155,7 @@ impl JointKind {
     }
 }
 
-/// What acts on one joint coordinate: τ = effort - stiffness (q - rest).
+/// What acts on one joint coordinate: τ = effort - stiffness (q - rest) - damping q̇.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct CoordinateLaw {
     /// Free (with a given effort) or driven.
@@ -164,6 +164,8 @@ pub struct CoordinateLaw {
     pub stiffness: f64,
     /// Where the stiffness is relaxed, m or rad.
     pub rest: f64,
+    /// Force or moment against the rate of the coordinate, N·s/m or N·m·s/rad.
+    pub damping: f64,
     /// Range that is reported when left, and pushes when it has a stiffness.
     pub limits: Option<Limits>,
 }

@@ -22,6 +22,7 @@ mod motion;
 mod notch;
 mod output;
 mod profile;
+mod spin;
 mod spring;
 mod study;
 mod text;
@@ -52,6 +53,7 @@ pub use motion::{InverseDynamicsStudy, MotionLaw, Pace, Sampling, Until};
 pub use notch::{Notch, NotchShape};
 pub use output::{Output, Probe, ProbeTarget, Quantity};
 pub use profile::{At, Profile};
+pub use spin::Spin;
 pub use spring::{ExponentialForm, Obstacle, Spring, SpringLaw, Turn, Wrap};
 pub use study::{BuckleStudy, CriticalStudy, ModesPath, ModesStudy, Stop, Study, StudyKind, TraceStudy};
 pub use text::{is_unseen, visible, visible_lines};
@@ -127,6 +129,10 @@ pub struct Model {
     pub name: String,
     /// Gravity in global axes, m/s². Zero unless given.
     pub gravity: Vector3<f64>,
+    /// Damping in proportion to inertia, 1/s: everything that moves is held back by this times its momentum.
+    pub mass_damping: f64,
+    /// The whole mechanism turns, and is described in axes that turn with it.
+    pub spin: Option<Spin>,
     /// The parameters and the values that the model was built with.
     pub parameters: Vec<Parameter>,
     /// How numbers follow from parameters; see [`Model::bind`].

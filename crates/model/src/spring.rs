@@ -19,6 +19,8 @@ pub struct Spring {
     /// Size s of what the law was found on: a given rest length and elongations count s times, areas and forces s² times,
     /// and so stiffnesses (force per length) s times.
     pub size: f64,
+    /// Tension against the rate of its length while it is not slack, N·s/m.
+    pub damping: f64,
     /// What it runs over.
     pub wrap: Option<Wrap>,
 }
@@ -27,7 +29,7 @@ impl Spring {
     /// A linear spring that starts relaxed.
     pub fn linear(name: impl Into<String>, from: Attachment, to: Attachment, stiffness: f64) -> Self {
         let law = SpringLaw::Linear { stiffness, tension_only: false };
-        Self { name: name.into(), from, to, law, rest_length: None, size: 1.0, wrap: None }
+        Self { name: name.into(), from, to, law, rest_length: None, size: 1.0, damping: 0.0, wrap: None }
     }
 }
 

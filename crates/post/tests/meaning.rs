@@ -37,6 +37,7 @@ fn strip(force: f64, moment: f64) -> (Model, Solution) {
         curve: Curve::Straight { length: LENGTH },
         frame: SectionFrame::Natural,
         theory: BeamTheory::default(),
+        damping: 0.0,
         start: None,
         end: None,
         distributed: Vec::new(),

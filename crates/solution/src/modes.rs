@@ -61,8 +61,10 @@ pub enum ModeKind {
     Diverging,
     /// It swings more and more.
     Flutter,
-    /// It swings and dies away, as its partner does that flutters backwards in time.
+    /// It swings and dies away: it is damped, or flutters backwards in time.
     Decaying,
+    /// It comes back without swinging.
+    Creeping,
 }
 
 impl ModeKind {
@@ -74,6 +76,7 @@ impl ModeKind {
             ModeKind::Diverging => "diverging",
             ModeKind::Flutter => "flutter",
             ModeKind::Decaying => "decaying",
+            ModeKind::Creeping => "creeping",
         }
     }
 }
@@ -89,6 +92,8 @@ pub struct Mode {
     pub kind: ModeKind,
     /// Estimated relative error of growth and rate together.
     pub error_estimate: f64,
+    /// ζ, where something damps: the part of |s| by which it dies away, 1 of what creeps, negative of what grows.
+    pub damping_ratio: Option<f64>,
     /// Mass that moves with the shape's largest displacement, kg; kg·m² of its largest turning where nothing is displaced.
     pub generalised_mass: f64,
     /// Shares in motions of the ground, where there is an energy.
@@ -119,7 +124,7 @@ impl Mode {
 
     /// Frequency, Hz; None of a mode that does not swing.
     pub fn frequency(&self) -> Option<f64> {
-        (self.kind != ModeKind::Diverging).then_some(self.rate / TAU)
+        (!matches!(self.kind, ModeKind::Diverging | ModeKind::Creeping)).then_some(self.rate / TAU)
     }
 
     /// Is it a motion without stiffness?

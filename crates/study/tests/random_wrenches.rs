@@ -33,6 +33,7 @@ fn cantilever() -> Model {
         curve: Curve::Straight { length: 1.0 },
         frame: SectionFrame::Natural,
         theory: BeamTheory { shear: false, extension: false },
+        damping: 0.0,
         start: Some(End { mount: Mount::Ground, placement: None, hold: JointLaw::weld() }),
         end: None,
         distributed: Vec::new(),

@@ -74,6 +74,7 @@ pub fn cantilever(section: Section, curve: Curve, theory: BeamTheory, place: Pos
         curve,
         frame: SectionFrame::Natural,
         theory,
+        damping: 0.0,
         start: Some(clamped(Mount::Ground, Some(place))),
         end: None,
         distributed: Vec::new(),

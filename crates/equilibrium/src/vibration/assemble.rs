@@ -73,6 +73,9 @@ impl Equilibrium {
             multipliers,
             stiffness,
             inertia: Vec::new(),
+            damping: Vec::new(),
+            gyroscopic: Vec::new(),
+            has_energy: self.without_energy().is_none(),
             rigid: std::array::from_fn(|_| vec![0.0; size]),
             whole: [0.0; 6],
             unit: self.square_unit(),
@@ -85,8 +88,9 @@ impl Equilibrium {
             layout: self.layout.clone(),
         };
         let lumps = self.lumps(&spans);
-        vibration.spans = spans;
         self.add_inertia(&lumps, &mut vibration);
+        self.add_damping(&spans, &mut vibration);
+        vibration.spans = spans;
         Ok(vibration)
     }
 

@@ -32,6 +32,8 @@ pub(super) struct Element {
     pub s: [f64; 2],
     /// The tangent; see [`element::tangent`].
     pub tangent: DMatrix<f64>,
+    /// What rates add to it per time of damping, of beams that have one; see [`element::viscous`].
+    pub viscous: Option<DMatrix<f64>>,
     /// Where its nodes are.
     pub places: Vec<V>,
     /// Orientation of its nodes.
@@ -252,11 +254,16 @@ impl Equilibrium {
             if !tangent.iter().all(|value| value.is_finite()) {
                 return Err(Breakdown::NotFinite);
             }
+            let viscous = if self.damping_of(description.beam) > 0.0 {
+                Some(element::viscous(rule, length, points, &kept).ok_or(Breakdown::Singular)?)
+            } else {
+                None
+            };
             let nodes = || part.iter().step_by(2);
             let places = nodes().map(|at| V::from(at.state.position)).collect();
             let rotations =
                 nodes().map(|at| pose_of(&at.state).rotation.to_rotation_matrix().into_inner()).collect();
-            list.push(Element { s, tangent, places, rotations });
+            list.push(Element { s, tangent, viscous, places, rotations });
         }
         let mut elements = Elements {
             rule: rule.clone(),

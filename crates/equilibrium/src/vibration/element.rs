@@ -73,6 +73,49 @@ fn add3(a: &mut DMatrix<f64>, row: usize, column: usize, block: &Matrix3<f64>) {
     }
 }
 
+/// Changes of strain by the motion (turning, shift) of a node, whose polynomial has this value and slope at the point.
+fn strain(point: &Point, value: f64, slope: f64) -> Matrix6<f64> {
+    let inverse = point.rotation.transpose();
+    let mut strain = Matrix6::zeros();
+    strain.fixed_view_mut::<3, 3>(0, 0).copy_from(&(inverse * hat(&point.axis) * value));
+    strain.fixed_view_mut::<3, 3>(0, 3).copy_from(&(inverse * slope));
+    strain.fixed_view_mut::<3, 3>(3, 0).copy_from(&(inverse * slope));
+    strain
+}
+
+/// What rates of the strains add to the tangent, per τ of n = C⁻¹ (γ + τ γ̇): to virtual work ∫ δγ·C⁻¹ γ̇, and γ̇ to the equation
+/// γ + τ γ̇ - C n = 0 of kept components, of those that yield at all. Numbered as [`tangent`].
+pub(super) fn viscous(rule: &Rule, length: f64, points: &[Point], kept: &[bool; 6]) -> Option<DMatrix<f64>> {
+    let nodes = rule.order + 1;
+    let listed: Vec<usize> = (0..6).filter(|i| kept[*i]).collect();
+    let n = 6 * nodes + listed.len() * rule.order;
+    let mut a = DMatrix::zeros(n, n);
+    for (g, point) in points.iter().enumerate() {
+        let weight = 0.5 * length * rule.point_weights[g];
+        let slopes = rule.slopes[g].iter().map(|slope| slope * 2.0 / length);
+        let stiff = stiffness(&point.compliance, kept)? * weight;
+        let strains: Vec<Matrix6<f64>> =
+            rule.values[g].iter().zip(slopes).map(|(value, slope)| strain(point, *value, slope)).collect();
+        for (j, own) in strains.iter().enumerate() {
+            let stress = stiff * own;
+            for (i, other) in strains.iter().enumerate() {
+                let mut block = a.fixed_view_mut::<6, 6>(6 * i, 6 * j);
+                block += other.tr_mul(&stress);
+            }
+            for (k, component) in listed.iter().enumerate() {
+                if point.compliance[(*component, *component)] == 0.0 {
+                    continue;
+                }
+                let row = 6 * nodes + g * listed.len() + k;
+                for l in 0..6 {
+                    a[(row, 6 * j + l)] += weight * own[(*component, l)];
+                }
+            }
+        }
+    }
+    Some(a)
+}
+
 /// The tangent of δW of an element of nondimensional length: nodes' motions first, (turning, shift) each, then the kept
 /// components at each Gauss point. None where a compliance has no inverse.
 pub(super) fn tangent(rule: &Rule, length: f64, points: &[Point], kept: &[bool; 6]) -> Option<DMatrix<f64>> {
@@ -86,16 +129,10 @@ pub(super) fn tangent(rule: &Rule, length: f64, points: &[Point], kept: &[bool; 
         let weight = 0.5 * length * rule.point_weights[g];
         let slopes: Vec<f64> = rule.slopes[g].iter().map(|slope| slope * 2.0 / length).collect();
         let values = &rule.values[g];
-        let inverse = point.rotation.transpose();
-        let turned = inverse * hat(&point.axis);
         let stiff = stiffness(&point.compliance, kept)? * weight;
         for j in 0..nodes {
-            let strain = &mut strains[j];
-            *strain = Matrix6::zeros();
-            strain.fixed_view_mut::<3, 3>(0, 0).copy_from(&(turned * values[j]));
-            strain.fixed_view_mut::<3, 3>(0, 3).copy_from(&(inverse * slopes[j]));
-            strain.fixed_view_mut::<3, 3>(3, 0).copy_from(&(inverse * slopes[j]));
-            stresses[j] = stiff * *strain;
+            strains[j] = strain(point, values[j], slopes[j]);
+            stresses[j] = stiff * strains[j];
         }
         let (force, moment) = (hat(&point.force) * weight, hat(&point.moment) * weight);
         let along = point.force.dot(&point.axis);

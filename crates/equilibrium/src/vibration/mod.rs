@@ -21,6 +21,7 @@
 
 mod assemble;
 mod cut;
+mod damping;
 mod element;
 mod mass;
 mod rule;
@@ -54,6 +55,14 @@ pub struct Vibration {
     pub stiffness: Vec<(usize, usize, f64)>,
     /// The same of the inertia, which is symmetric.
     pub inertia: Vec<(usize, usize, f64)>,
+    /// The same of what resists the rates of motions, none where nothing does: time in units of 1/√unit. In rows of wrenches
+    /// it is the rate's part of a damped strain, so that it is symmetric among vectors that satisfy these rows alone:
+    /// for modes of the undamped pencil xᵢ·D xⱼ is the modal damping matrix.
+    pub damping: Vec<(usize, usize, f64)>,
+    /// The same of what a spinning frame does to the rates, antisymmetric; none where nothing spins.
+    pub gyroscopic: Vec<(usize, usize, f64)>,
+    /// Is the stiffness the second variation of an energy?
+    pub has_energy: bool,
     /// Inertia times the shifts of everything along x, y and z, then its turnings about these axes through the centre of mass.
     pub rigid: [Vec<f64>; 6],
     /// What takes part in them: mass (kg) three times, then moments of inertia about the centre of mass (kg·m²).

@@ -6,7 +6,7 @@ use super::visit_joint::{joints, law};
 use crate::{
     At, Attachment, Beam, Body, Cable, CableLaw, Coupling, Curve, Distributed, End, Foundation,
     FoundationLaw, Guide, Load, LoadTarget, Material, Model, Mount, Notch, NotchShape, Obstacle, PointMass,
-    Profile, Section, SectionFrame, Shape, Spring, SpringLaw, Target, Tube, Tubes, Unknown, Wrap,
+    Profile, Section, SectionFrame, Shape, Spin, Spring, SpringLaw, Target, Tube, Tubes, Unknown, Wrap,
 };
 use flexura_expression::Function;
 use flexura_spatial::{Pose, UnitQuaternion, Vector3};
@@ -286,12 +286,14 @@ fn beam(v: &mut impl Visit, beam: &mut Beam) {
         curve,
         frame,
         theory: _,
+        damping,
         start,
         end,
         distributed: loads,
         foundation: foundations,
     } = beam;
     v.within(Step::Named("beam", name), |v| {
+        number(v, "damping", damping);
         match curve {
             Curve::Straight { length } => number(v, "length", length),
             other => v.within(Step::Key("curve"), |v| of_curve(v, other)),
@@ -389,7 +391,7 @@ fn coupling(v: &mut impl Visit, Coupling { name, terms, offset }: &mut Coupling)
 }
 
 fn spring(v: &mut impl Visit, spring: &mut Spring) {
-    let Spring { name, from, to, law, rest_length, size, wrap } = spring;
+    let Spring { name, from, to, law, rest_length, size, damping, wrap } = spring;
     v.within(Step::Named("spring", name), |v| {
         attachment(v, "from", from);
         attachment(v, "to", to);
@@ -408,6 +410,7 @@ fn spring(v: &mut impl Visit, spring: &mut Spring) {
         }
         optional(v, "rest_length", rest_length);
         number(v, "size", size);
+        number(v, "damping", damping);
         if let Some(Wrap { frame, obstacle }) = wrap {
             v.within(Step::Key("wrap"), |v| {
                 placed(v, &mut frame.mount, Some(&mut frame.pose));
@@ -487,6 +490,8 @@ impl Model {
         let Model {
             name: _,
             gravity,
+            mass_damping,
+            spin,
             parameters,
             bindings: _,
             materials,
@@ -506,6 +511,14 @@ impl Model {
             studies: _,
         } = self;
         numbers(v, "gravity", gravity.iter_mut());
+        number(v, "mass_damping", mass_damping);
+        if let Some(Spin { axis, rate, through }) = spin {
+            v.within(Step::Key("spin"), |v| {
+                direction(v, "axis", axis);
+                number(v, "rate", rate);
+                numbers(v, "through", through.iter_mut());
+            });
+        }
         materials.iter_mut().for_each(|one| material(v, one));
         sections.iter_mut().for_each(|one| section(v, one));
         bodies.iter_mut().for_each(|one| body(v, one));

@@ -76,7 +76,7 @@ pub(super) fn law(v: &mut impl Visit, law: &mut JointLaw, turning: &'static str,
 
 /// Of one coordinate; `component` where it is one of a rotation vector.
 fn of_coordinate(v: &mut impl Visit, law: &mut CoordinateLaw, part: Part, component: Option<usize>) {
-    let CoordinateLaw { drive, stiffness, rest, limits } = law;
+    let CoordinateLaw { drive, stiffness, rest, damping, limits } = law;
     let of = |v: &mut _, key, value: &mut f64| one(v, key, component, value);
     v.part(part);
     match drive {
@@ -86,6 +86,7 @@ fn of_coordinate(v: &mut impl Visit, law: &mut CoordinateLaw, part: Part, compon
     of(v, "rest", rest);
     v.part(Part::Other);
     number(v, "stiffness", stiffness);
+    number(v, "damping", damping);
     if let Some(Limits { range, stiffness }) = limits {
         v.within(Step::Key("limits"), |v| {
             numbers(v, "range", range);

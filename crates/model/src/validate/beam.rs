@@ -41,6 +41,7 @@ impl Model {
     pub(super) fn check_beam(&self, beam: &Beam, issues: &mut Issues) {
         let path = format!("beam.{}", beam.name);
         let length = check_curve(&beam.curve, &path, issues);
+        issues.not_negative(format_args!("{path}.damping"), beam.damping);
         check_frame(beam, &format!("{path}.frame"), issues);
         let material = beam.material.and_then(|id| self.materials.get(id.0));
         if beam.material.is_some() && material.is_none() {

@@ -201,6 +201,7 @@ fn check_coordinate(coordinate: &CoordinateLaw, path: &str, issues: &mut Issues)
     };
     issues.not_negative(format_args!("{path}.stiffness"), coordinate.stiffness);
     issues.finite(format_args!("{path}.rest"), coordinate.rest);
+    issues.not_negative(format_args!("{path}.damping"), coordinate.damping);
     if let Some(limits) = coordinate.limits {
         let [low, high] = limits.range;
         if low.is_nan() || high.is_nan() || low >= high {

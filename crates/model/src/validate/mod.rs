@@ -129,6 +129,14 @@ impl Model {
         let mut issues = Issues(Vec::new());
         self.check_names(&mut issues);
         issues.finite_vector("gravity", &self.gravity);
+        issues.not_negative("mass_damping", self.mass_damping);
+        if let Some(spin) = &self.spin {
+            issues.finite("spin.rate", spin.rate);
+            issues.finite_vector("spin.through", &spin.through);
+            if (spin.axis.norm() - 1.0).is_nan() || (spin.axis.norm() - 1.0).abs() > 1e-9 {
+                issues.add("spin.axis", "must be a unit vector");
+            }
+        }
         for parameter in &self.parameters {
             issues.finite(format_args!("parameter.{}", parameter.name), parameter.value);
         }

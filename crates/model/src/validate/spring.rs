@@ -16,6 +16,7 @@ impl Model {
                 issues.add(format!("{path}.to"), "a spring must connect two different points");
             }
             issues.positive(format_args!("{path}.size"), spring.size);
+            issues.not_negative(format_args!("{path}.damping"), spring.damping);
             check_law(spring, &path, issues);
             if let Some(wrap) = &spring.wrap {
                 self.check_wrap(wrap, &format!("{path}.wrap"), issues);

@@ -26,6 +26,7 @@ fn good() -> Model {
             curve: Curve::Straight { length: 0.1 },
             frame: SectionFrame::Natural,
             theory: BeamTheory::default(),
+            damping: 0.0,
             start: Some(End { mount: Mount::Ground, placement: None, hold: JointLaw::weld() }),
             end: None,
             distributed: Vec::new(),

@@ -20,6 +20,7 @@ pub(super) fn beam(reader: &Reader<'_, '_>, name: String) -> Read<Beam> {
     let end = end(reader, "end", &name);
     let shear = reader.flag("shear");
     let extension = reader.flag("extension");
+    let damping = reader.number("damping");
     let distributed = distributed(reader);
     let foundation = foundations(reader);
     Ok(Beam {
@@ -29,6 +30,7 @@ pub(super) fn beam(reader: &Reader<'_, '_>, name: String) -> Read<Beam> {
         curve: curve?,
         frame: frame?,
         theory: BeamTheory { shear: shear?.unwrap_or(false), extension: extension?.unwrap_or(true) },
+        damping: damping?.unwrap_or(0.0),
         start: start?,
         end: end?,
         distributed: distributed?,

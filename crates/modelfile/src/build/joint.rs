@@ -190,6 +190,7 @@ pub(super) fn coordinate(reader: &Reader<'_, '_>) -> Read<CoordinateLaw> {
     let effort = reader.number("effort");
     let stiffness = reader.number("stiffness");
     let rest = reader.number("rest");
+    let damping = reader.number("damping");
     let limits = limits(reader);
     let (coordinate, effort) = (coordinate?, effort?);
     let drive = match (coordinate, effort) {
@@ -205,6 +206,7 @@ pub(super) fn coordinate(reader: &Reader<'_, '_>) -> Read<CoordinateLaw> {
         drive,
         stiffness: stiffness.unwrap_or(0.0),
         rest: rest.unwrap_or(0.0),
+        damping: damping?.unwrap_or(0.0),
         limits: limits?,
     })
 }
@@ -215,6 +217,7 @@ pub(super) fn rotation_vector(reader: &Reader<'_, '_>) -> Read<Vec<CoordinateLaw
     let effort = reader.vector("effort");
     let stiffness = reader.number("stiffness");
     let rest = reader.vector("rest");
+    let damping = reader.number("damping")?;
     let (coordinate, effort, stiffness, rest) = (coordinate?, effort?, stiffness?, rest?);
     if coordinate.is_some() && effort.is_some() {
         return Err(reader.wrong_at("effort", "give `coordinate` or `effort`, not both", BOTH));
@@ -227,6 +230,7 @@ pub(super) fn rotation_vector(reader: &Reader<'_, '_>) -> Read<Vec<CoordinateLaw
         },
         stiffness: stiffness.unwrap_or(0.0),
         rest: rest.map_or(0.0, |rest| rest[k]),
+        damping: damping.unwrap_or(0.0),
         limits: None,
     };
     Ok((0..3).map(law).collect())

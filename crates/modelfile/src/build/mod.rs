@@ -25,13 +25,13 @@ mod unknown;
 
 pub(crate) use result::name_of;
 
-use crate::context::Context;
+use crate::context::{Context, Needed, Read};
 use crate::format::{FILE, Key, Shape, Table};
 use crate::parameters;
 use crate::reader::Reader;
 use crate::report::Problem;
 use crate::tree::{Entry, Node, Value};
-use flexura_model::{Model, Parameter, name_problem};
+use flexura_model::{Model, Parameter, Spin, name_problem};
 use flexura_spatial::Vector3;
 use std::collections::BTreeSet;
 
@@ -43,6 +43,13 @@ pub(crate) fn parameters(context: &mut Context<'_>, overrides: &[(String, String
     parameters::evaluate(context, overrides);
 }
 
+fn spin(table: &Reader<'_, '_>) -> Read<Spin> {
+    let axis = table.direction("axis").needed();
+    let rate = table.number("rate").needed();
+    let through = table.vector("through");
+    Ok(Spin { axis: axis?, rate: rate?, through: through?.unwrap_or_else(Vector3::zeros) })
+}
+
 /// Reads the whole file. None: something is wrong, which has been recorded.
 pub(crate) fn model(context: &Context<'_>) -> Option<Model> {
     let root = context.root;
@@ -50,6 +57,8 @@ pub(crate) fn model(context: &Context<'_>) -> Option<Model> {
     let mut model = Model {
         name: file.text("name").ok().flatten().unwrap_or_default().to_string(),
         gravity: file.vector("gravity").ok().flatten().unwrap_or_else(Vector3::zeros),
+        mass_damping: file.number("mass_damping").ok().flatten().unwrap_or(0.0),
+        spin: file.table("spin").ok().flatten().and_then(|table| spin(&table).ok()),
         ..Model::default()
     };
     for declared in parameters::declared(root) {

@@ -15,6 +15,7 @@ pub(super) fn spring(reader: &Reader<'_, '_>, name: String) -> Read<Spring> {
     let law = law(reader);
     let rest_length = reader.number("rest_length");
     let size = reader.number("size");
+    let damping = reader.number("damping");
     let wrap = match reader.table("wrap") {
         Ok(Some(table)) => wrap(&table).map(Some),
         Ok(None) => Ok(None),
@@ -27,6 +28,7 @@ pub(super) fn spring(reader: &Reader<'_, '_>, name: String) -> Read<Spring> {
         law: law?,
         rest_length: rest_length?,
         size: size?.unwrap_or(1.0),
+        damping: damping?.unwrap_or(0.0),
         wrap: wrap?,
     })
 }

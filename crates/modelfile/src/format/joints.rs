@@ -60,6 +60,13 @@ macro_rules! angle_keys {
             ),
             key("rest", Shape::Number(D::ANGLE), Default("0"), "\"10 deg\"", "Where the spring is relaxed."),
             key(
+                "damping",
+                Shape::Number(D::ANGULAR_DAMPING),
+                Default("0"),
+                "\"0.01 N*m*s/rad\"",
+                "Moment against its angular velocity.",
+            ),
+            key(
                 "limits",
                 Shape::Table(&ANGLE_LIMITS),
                 Optional,
@@ -95,6 +102,13 @@ macro_rules! length_keys {
                 "A spring on the position.",
             ),
             key("rest", Shape::Number(D::LENGTH), Default("0"), "\"5 mm\"", "Where the spring is relaxed."),
+            key(
+                "damping",
+                Shape::Number(D::DAMPING),
+                Default("0"),
+                "\"2 N*s/m\"",
+                "Force against its velocity.",
+            ),
             key(
                 "limits",
                 Shape::Table(&LENGTH_LIMITS),
@@ -134,6 +148,13 @@ const BALL_KEYS: &[Key] = &[
         Default("none"),
         "[0, 0, \"10 deg\"]",
         "Where the spring is relaxed.",
+    ),
+    key(
+        "damping",
+        Shape::Number(D::ANGULAR_DAMPING),
+        Default("0"),
+        "\"0.01 N*m*s/rad\"",
+        "Moment against its angular velocity, alike about all axes.",
     ),
 ];
 

@@ -71,6 +71,13 @@ pub(crate) static SPRING: Table = Table {
             "Size of the animal relative to the one that the numbers are of: a given `rest_length` and elongations count `size` times, areas and forces its square, stiffnesses (N/m) `size` times.",
         ),
         key(
+            "damping",
+            Shape::Number(D::DAMPING),
+            Default("0"),
+            "\"2 N*s/m\"",
+            "Tension against the rate of its length, while it is not slack.",
+        ),
+        key(
             "wrap",
             Shape::Table(&WRAP),
             Optional,

@@ -57,6 +57,20 @@ pub(crate) static FILE: Table = table(
             "Gravity in global axes.",
         ),
         key(
+            "mass_damping",
+            Shape::Number(D::FREQUENCY),
+            Default("0"),
+            "\"0.5 1/s\"",
+            "Damping in proportion to inertia: everything that moves is held back by this times its momentum.",
+        ),
+        key(
+            "spin",
+            Shape::Table(&SPIN),
+            Optional,
+            "{ axis = [0, 0, 1], rate = \"100 rad/s\" }",
+            "The whole mechanism turns at a steady rate, and is described in axes that turn with it: centrifugal forces load it, and gyroscopic ones act in its modes. Gravity and dead loads turn along.",
+        ),
+        key(
             "parameter",
             Shape::NamedNumbers,
             Optional,
@@ -135,6 +149,27 @@ pub(crate) static FILE: Table = table(
     ],
 );
 
+static SPIN: Table = table(
+    "A steady turning of the whole mechanism.",
+    &[
+        key(
+            "axis",
+            Shape::Vector(D::NUMBER),
+            Required,
+            "[0, 0, 1]",
+            "The direction of the line about which it turns, right-handedly; need not be of unit length.",
+        ),
+        key("rate", Shape::Number(D::ANGULAR_VELOCITY), Required, "\"100 rad/s\"", "How fast."),
+        key(
+            "through",
+            Shape::Vector(D::LENGTH),
+            Default("[0, 0, 0]"),
+            "[0, \"20 mm\", 0]",
+            "A point of the line.",
+        ),
+    ],
+);
+
 /// What every named table may have; it is gone before the table is read.
 pub(crate) const REPEAT: Key = key(
     "repeat",
@@ -209,6 +244,13 @@ pub(crate) static BEAM: Table = table(
         ),
         key("shear", Shape::Flag, Default("false"), "true", "Sections may shear against the axis."),
         key("extension", Shape::Flag, Default("true"), "false", "The axis may stretch."),
+        key(
+            "damping",
+            Shape::Number(D::TIME),
+            Default("0"),
+            "\"0.1 ms\"",
+            "Time τ of a damping within the material: forces and moments are those of the strains plus τ times their rates. A mode of circular frequency ω has the damping ratio τ ω/2.",
+        ),
         key(
             "distributed",
             Shape::Tables(&DISTRIBUTED),

@@ -34,6 +34,16 @@ pub fn to_toml(model: &Model) -> Result<String, Issue> {
     if writer.is_bound("gravity") || model.gravity != Vector3::zeros() {
         file.put("gravity", writer.vector("gravity", &model.gravity));
     }
+    if writer.is_bound("mass_damping") || model.mass_damping != 0.0 {
+        file.put("mass_damping", writer.number("mass_damping", model.mass_damping));
+    }
+    if let Some(spin) = &model.spin {
+        let mut table = Table::default();
+        table.put("axis", writer.direction("spin.axis", &spin.axis));
+        table.put("rate", writer.number("spin.rate", spin.rate));
+        table.put("through", writer.vector("spin.through", &spin.through));
+        file.put("spin", Value::Table(table));
+    }
     let mut text = file.lines();
     writer.things(&mut text)?;
     writer.results(&mut text);

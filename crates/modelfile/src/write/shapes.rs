@@ -308,6 +308,7 @@ impl Writer<'_> {
             table.put("stiffness", self.number(&format!("{path}.stiffness"), law.stiffness));
         }
         table.put_some("rest", rest);
+        table.put_some("damping", own("damping", law.damping));
         if let Some(limits) = &law.limits {
             let path = format!("{path}.limits");
             let mut inner = Table::default();
@@ -349,6 +350,10 @@ impl Writer<'_> {
             table.put("stiffness", self.number(&format!("{path}.stiffness"), stiffness));
         }
         table.put_some("rest", rest);
+        let damping = laws.first().map_or(0.0, |law| law.damping);
+        if damping != 0.0 || self.is_bound(&format!("{path}.damping")) {
+            table.put("damping", self.number(&format!("{path}.damping"), damping));
+        }
         table
     }
 

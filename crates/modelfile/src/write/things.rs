@@ -171,6 +171,9 @@ impl Writer<'_> {
         if !beam.theory.extension {
             table.put("extension", Value::flag(false));
         }
+        if beam.damping != 0.0 || self.is_bound(&format!("{path}.damping")) {
+            table.put("damping", self.number(&format!("{path}.damping"), beam.damping));
+        }
         let loads = beam.distributed.iter().enumerate();
         let loads = loads.map(|(i, load)| self.distributed(load, &self.of_list(&path, "distributed", i)));
         let loads = loads.collect::<Result<Vec<_>, _>>()?;
@@ -297,6 +300,9 @@ impl Writer<'_> {
         table.put_some("rest_length", spring.rest_length.map(|value| own("rest_length", value)));
         if spring.size != 1.0 || self.is_bound(&format!("{path}.size")) {
             table.put("size", own("size", spring.size));
+        }
+        if spring.damping != 0.0 || self.is_bound(&format!("{path}.damping")) {
+            table.put("damping", own("damping", spring.damping));
         }
         if let Some(wrap) = &spring.wrap {
             let path = format!("{path}.wrap");

@@ -41,12 +41,14 @@ pub fn modes(document: &Value, make: &mut Make<'_>) -> Result<Vec<String>, ReadE
     let model = model_of(document, &[], make)?;
     let mut solution = solution(document, scene_of(document)?, &model)?;
     solution.status = status_of(text(document, "status"))?;
-    let kinds = [ModeKind::Rigid, ModeKind::Diverging, ModeKind::Flutter, ModeKind::Decaying];
+    let kinds =
+        [ModeKind::Rigid, ModeKind::Diverging, ModeKind::Flutter, ModeKind::Decaying, ModeKind::Creeping];
     let modes = list(document, "modes").iter().map(|mode| Mode {
         growth: number(mode, "growth"),
         rate: number(mode, "rate"),
         kind: kinds.into_iter().find(|kind| kind.word() == text(mode, "kind")).unwrap_or(ModeKind::Swinging),
         error_estimate: number(mode, "error_estimate"),
+        damping_ratio: mode.get("damping_ratio").and_then(Value::as_f64),
         generalised_mass: number(mode, "generalised_mass"),
         shares: None,
         direction: direction(&mode["shape"], &model),

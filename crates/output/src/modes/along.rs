@@ -62,7 +62,7 @@ pub struct FrequencyPoint {
 /// A mode at a point of the path.
 #[derive(Clone, Debug, Serialize)]
 pub struct FrequencyDocument {
-    /// "swinging", "rigid", "diverging", "flutter" or "decaying".
+    /// "swinging", "rigid", "diverging", "flutter", "decaying" or "creeping".
     pub kind: String,
     /// Circular frequency, rad/s.
     pub rate: f64,

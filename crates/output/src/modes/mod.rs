@@ -73,6 +73,10 @@ fn mode_document(model: &Model, mode: &Mode) -> Result<VibrationDocument, Output
         growth: finite(mode.growth, || "growth".into())?,
         omega_squared: finite(mode.square(), || "omega_squared".into())?,
         error_estimate: finite(mode.error_estimate, || "error_estimate".into())?,
+        damping_ratio: mode
+            .damping_ratio
+            .map(|value| finite(value, || "damping_ratio".into()))
+            .transpose()?,
         generalised_mass: finite(mode.generalised_mass, || "generalised_mass".into())?,
         participation: shares.map(|own| six(&own.participation, "participation")).transpose()?,
         effective_mass: shares.map(|own| six(&own.effective, "effective_mass")).transpose()?,

@@ -64,9 +64,10 @@ pub struct ModesDocument {
 /// One mode: it moves like exp((growth ± i rate) t).
 #[derive(Clone, Debug, Serialize)]
 pub struct VibrationDocument {
-    /// "swinging", "rigid" (a motion without stiffness), "diverging", "flutter" or "decaying".
+    /// "swinging", "rigid" (a motion without stiffness), "diverging", "flutter", "decaying" or "creeping" (it comes back without
+    /// swinging).
     pub kind: String,
-    /// Hz; null of one that grows without swinging.
+    /// Hz; null of one that does not swing.
     pub frequency_hz: Option<f64>,
     /// Circular frequency, rad/s.
     pub rate: f64,
@@ -76,6 +77,9 @@ pub struct VibrationDocument {
     pub omega_squared: f64,
     /// Estimated relative error of rate and growth.
     pub error_estimate: f64,
+    /// ζ, where something damps: the part by which it dies away of the modulus of growth and rate; negative where it grows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping_ratio: Option<f64>,
     /// Mass that moves with the largest displacement of the shape, kg; kg·m² where it only turns.
     pub generalised_mass: f64,
     /// By what shifts of the ground along x, y, z and turnings about these through the centre of mass drive it; null where there is

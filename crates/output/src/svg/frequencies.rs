@@ -21,7 +21,9 @@ const BELOW: f64 = 58.0;
 pub fn frequencies_svg(model: &Model, along: &ModesAlong) -> String {
     let trace = &along.trace;
     let hertz = |mode: &Option<Followed>| {
-        mode.as_ref().filter(|mode| mode.kind != ModeKind::Diverging).map(|mode| mode.rate / TAU)
+        mode.as_ref()
+            .filter(|mode| !matches!(mode.kind, ModeKind::Diverging | ModeKind::Creeping))
+            .map(|mode| mode.rate / TAU)
     };
     let (name, unit) = parameter_of(model, Some(trace.parameter));
     let mut canvas = Canvas::new(LEFT + SIZE[0] + RIGHT, TOP + SIZE[1] + BELOW);

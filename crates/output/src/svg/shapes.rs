@@ -138,6 +138,7 @@ pub fn vibration_svg(model: &Model, modes: &Modes) -> String {
         let text = match mode.kind {
             ModeKind::Rigid => "without stiffness".to_owned(),
             ModeKind::Diverging => format!("grows, {}", shown(mode.growth, "1/s", 5)),
+            ModeKind::Creeping => format!("creeps, {}", shown(-mode.growth, "1/s", 5)),
             ModeKind::Flutter => format!("flutter, {}", shown(mode.rate / TAU, "Hz", 5)),
             ModeKind::Swinging | ModeKind::Decaying => shown(mode.rate / TAU, "Hz", 5),
         };

@@ -38,6 +38,7 @@ fn beam(name: &str, section: SectionId, material: Option<MaterialId>, length: f6
         curve: Curve::Straight { length },
         frame: SectionFrame::Natural,
         theory: BeamTheory::default(),
+        damping: 0.0,
         start: clamp(Mount::Ground),
         end: clamp(Mount::Body(BodyId(0))),
         distributed: Vec::new(),

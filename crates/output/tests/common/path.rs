@@ -57,6 +57,7 @@ pub fn model() -> Model {
             curve: Curve::Straight { length: LENGTH },
             frame: SectionFrame::Natural,
             theory: BeamTheory::default(),
+            damping: 0.0,
             start: end(Mount::Ground),
             end: end(Mount::Body(BodyId(0))),
             distributed: Vec::new(),

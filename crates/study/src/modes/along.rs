@@ -139,7 +139,7 @@ impl Walk<'_> {
         }
         match spectrum(&mut prepared.problem, self.study.count, self.near) {
             Ok(found) => {
-                let highest = found.waves.iter().map(|wave| wave.square.re).fold(0.0, f64::max);
+                let highest = found.waves.iter().map(super::Wave::size).fold(0.0, f64::max);
                 self.near = (highest > 0.0).then_some(highest * found.vibration.unit);
                 let tell = |wave: &super::Wave| signature(&prepared.problem, &found, &wave.vector[0]);
                 let signatures = found.waves.iter().map(tell).collect();

@@ -5,6 +5,7 @@
 //! like the 2p-th power of the element's length, so that their difference bounds what is left.
 
 mod along;
+mod damped;
 mod pencil;
 mod reading;
 mod unsymmetric;
@@ -163,7 +164,7 @@ pub(crate) struct Spectrum {
     pub vibration: Vibration,
     pub order: usize,
     pub waves: Vec<Wave>,
-    /// Is there an energy, so that ω² are real and counted?
+    /// Is there an energy and nothing that damps or spins, so that ω² are real and counted?
     pub has_energy: bool,
     /// Relative errors of ω².
     pub errors: Vec<f64>,
@@ -231,20 +232,26 @@ impl Found {
         if vibration.inertia.is_empty() {
             return Err(Trouble::Weightless);
         }
-        let has_energy = problem.without_energy().is_none();
+        let has_energy = vibration.has_energy;
+        let is_quadratic = !(vibration.damping.is_empty() && vibration.gyroscopic.is_empty());
         let named = |trouble: Trouble| match trouble {
             Trouble::Massless(x) => Trouble::Loose(problem.loosest(&vibration, &x)),
             other => other,
         };
-        let waves = if has_energy {
+        let waves = if is_quadratic {
+            damped::slowest(&vibration, count, hint.abs().sqrt()).map_err(named)?
+        } else if has_energy {
             let pairs = counted(&vibration, count, hint).map_err(named)?;
-            let real =
-                |(square, x): Pair| Wave { square: Complex::new(square, 0.0), vector: [x, Vec::new()] };
+            let real = |(square, x): Pair| Wave {
+                square: Complex::new(square, 0.0),
+                rate: None,
+                vector: [x, Vec::new()],
+            };
             pairs.into_iter().map(real).collect()
         } else {
             complex(&vibration, count, hint).map_err(named)?
         };
-        Ok(Self { vibration, waves, has_energy })
+        Ok(Self { vibration, waves, has_energy: has_energy && !is_quadratic })
     }
 
     /// A shift for the next look.
@@ -257,7 +264,7 @@ impl Found {
     }
 
     fn highest(&self) -> f64 {
-        self.waves.iter().map(|wave| wave.square.re).fold(0.0, f64::max)
+        self.waves.iter().map(Wave::size).fold(0.0, f64::max)
     }
 
     fn rigid(&self) -> usize {

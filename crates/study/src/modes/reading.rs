@@ -52,9 +52,10 @@ fn mode(problem: &Equilibrium, solution: &Solution, found: &Spectrum, wave: &Wav
         per * dot / size / generalised_mass
     });
     let effective = participation.map(|share| share * share * generalised_mass);
-    let (growth, rate, kind) = motion(wave.square * Complex::new(vibration.unit, 0.0));
+    let (growth, rate, kind) = motion(wave, vibration.unit);
     let own = if kind == ModeKind::Rigid { 0.0 } else { OF_STATE * solution.error_estimate };
-    let quadrature = (wave.square.im != 0.0).then(|| {
+    let is_swinging = wave.rate.map_or(wave.square.im != 0.0, |s| s.im != 0.0);
+    let quadrature = is_swinging.then(|| {
         let mut shape = shape(solution, &problem.swing(vibration, aside));
         for twist in shape.beams.iter_mut().flatten().chain(&mut shape.bodies) {
             twist.linear /= size;
@@ -70,6 +71,8 @@ fn mode(problem: &Equilibrium, solution: &Solution, found: &Spectrum, wave: &Wav
         generalised_mass,
         shares: found.has_energy.then_some(Shares { participation, effective }),
         nodes: nodes(problem, &swing, size),
+        damping_ratio: (!vibration.damping.is_empty() && kind != ModeKind::Rigid)
+            .then(|| -growth / growth.hypot(rate)),
         direction,
         quadrature,
     }
@@ -107,16 +110,29 @@ fn remark(solution: &mut Solution, modes: &[Mode], has_energy: bool) {
 
 /// What the modes do, without their shapes.
 pub(super) fn rates(found: &Spectrum) -> Vec<Followed> {
-    let unit = Complex::new(found.vibration.unit, 0.0);
+    let unit = found.vibration.unit;
     let each = found.waves.iter().zip(&found.errors).map(|(wave, error)| {
-        let (growth, rate, kind) = motion(wave.square * unit);
+        let (growth, rate, kind) = motion(wave, unit);
         Followed { growth, rate, kind, error_estimate: 0.5 * error.max(ROUND_OFF) }
     });
     each.collect()
 }
 
 /// Growth and rate of exp(s t) with s² = -ω²: of two opposite s the one that grows, but of a conjugate pair of ω² one each.
-fn motion(square: Complex<f64>) -> (f64, f64, ModeKind) {
+fn motion(wave: &Wave, unit: f64) -> (f64, f64, ModeKind) {
+    if let Some(s) = wave.rate {
+        let (growth, rate) = (s.re * unit.sqrt(), s.im * unit.sqrt());
+        let kind = match (growth, rate) {
+            (0.0, 0.0) => ModeKind::Rigid,
+            (0.0, _) => ModeKind::Swinging,
+            (growth, 0.0) if growth > 0.0 => ModeKind::Diverging,
+            (_, 0.0) => ModeKind::Creeping,
+            (growth, _) if growth > 0.0 => ModeKind::Flutter,
+            _ => ModeKind::Decaying,
+        };
+        return (growth, rate, kind);
+    }
+    let square = wave.square * Complex::new(unit, 0.0);
     let size = square.norm_sqr().sqrt().sqrt();
     let half = 0.5 * square.im.atan2(square.re);
     let (rate, growth) = (size * half.cos(), size * half.sin());

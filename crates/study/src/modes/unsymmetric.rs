@@ -2,7 +2,7 @@
 //!
 //! A block Krylov space of (K - σ M)⁻¹ M as in `pencil`, of which the projection is no longer symmetric (W. E. Arnoldi, *Quart. Appl.
 //! Math.* 9 (1951) 17). No inertia counts what is there; instead everything nearer to the shift than what is asked for must have
-//! settled, from a start of several vectors.
+//! settled, from a start of several vectors. The same space serves the quadratic pencils of `damped`.
 
 use super::pencil::Trouble;
 use flexura_equilibrium::Vibration;
@@ -20,51 +20,45 @@ const NEW: f64 = 1e-9;
 /// Part of ω² that may be imaginary by round-off.
 const REAL: f64 = 1e-7;
 
-/// ω² with its vector: real and imaginary parts.
+/// ω² = -s² with its vector: real and imaginary parts.
 #[derive(Clone, Debug)]
 pub struct Wave {
     pub square: Complex<f64>,
+    /// s itself where one of ±s alone is meant, and where it is not s² that is real for what swings.
+    pub rate: Option<Complex<f64>>,
     pub vector: [Vec<f64>; 2],
 }
 
-/// The `count` ω² nearest to σ, those of a conjugate pair both counted, and their vectors.
-pub fn nearest(vibration: &Vibration, count: usize, sigma: f64) -> Result<Vec<Wave>, Trouble> {
-    let mut space = Space::new(vibration, sigma)?;
-    let (mut dead, mut since) = (0, 0);
-    loop {
-        let is_fresh = space.vectors.len() < BLOCK || space.next >= space.vectors.len();
-        if space.grow(is_fresh, dead)? {
-            since += 1;
-        } else {
-            dead += usize::from(is_fresh);
-        }
-        let exhausted = dead > 3 || space.vectors.len() >= vibration.size;
-        if exhausted || since >= LOOK && space.vectors.len() > count + 2 {
-            since = 0;
-            let open = space.open();
-            let found = project(&space.heavy, &space.images, &open, count, sigma).ok_or(Trouble::Missing)?;
-            if found.len() >= count || exhausted {
-                return Ok(found);
-            }
+impl Wave {
+    /// ω² that elements must resolve: of what does not swing none.
+    pub fn size(&self) -> f64 {
+        match self.rate {
+            Some(s) if s.im == 0.0 => 0.0,
+            Some(s) => s.norm_sqr(),
+            None => self.square.re,
         }
     }
 }
 
-/// A Krylov space, orthonormal with respect to M.
-struct Space<'v> {
+/// What a Krylov space is made of: an operator whose eigenvalues θ are large for what lies near a shift, and the product that tells
+/// its vectors apart.
+pub(super) trait Operator {
+    /// Length of its vectors.
+    fn size(&self) -> usize;
+    /// W x, with x·W y the product.
+    fn weighed(&self, x: &DVector<f64>) -> DVector<f64>;
+    /// What it makes of a vector, given with W times the same.
+    fn apply(&mut self, x: &DVector<f64>, weighed: &DVector<f64>) -> DVector<f64>;
+}
+
+/// (K - σ M)⁻¹ M.
+struct Inverse<'v> {
     vibration: &'v Vibration,
     /// K - σ M, factorised.
     matrix: Matrix,
-    vectors: Vec<DVector<f64>>,
-    /// M times each.
-    heavy: Vec<DVector<f64>>,
-    /// (K - σ M)⁻¹ M times each.
-    images: Vec<DVector<f64>>,
-    /// Whose image is the next to be taken in.
-    next: usize,
 }
 
-impl<'v> Space<'v> {
+impl<'v> Inverse<'v> {
     fn new(vibration: &'v Vibration, sigma: f64) -> Result<Self, Trouble> {
         let mut matrix = Matrix::default();
         matrix.arrange(vibration.size, &vibration.blocks);
@@ -76,8 +70,13 @@ impl<'v> Space<'v> {
             matrix.add(i, j, -sigma * value);
         }
         matrix.factorise()?;
-        let (vectors, heavy, images) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { vibration, matrix, vectors, heavy, images, next: 0 })
+        Ok(Self { vibration, matrix })
+    }
+}
+
+impl Operator for Inverse<'_> {
+    fn size(&self) -> usize {
+        self.vibration.size
     }
 
     fn weighed(&self, x: &DVector<f64>) -> DVector<f64> {
@@ -86,8 +85,68 @@ impl<'v> Space<'v> {
         out
     }
 
+    fn apply(&mut self, _: &DVector<f64>, weighed: &DVector<f64>) -> DVector<f64> {
+        let mut image = weighed.clone();
+        self.matrix.solve(image.as_mut_slice());
+        image
+    }
+}
+
+/// The `count` ω² nearest to σ, those of a conjugate pair both counted, and their vectors.
+pub fn nearest(vibration: &Vibration, count: usize, sigma: f64) -> Result<Vec<Wave>, Trouble> {
+    let found = largest(Inverse::new(vibration, sigma)?, count, vibration.size)?;
+    let wave = |(theta, vector): Ritz| {
+        let mut square = Complex::new(sigma, 0.0) + Complex::new(1.0, 0.0) / theta;
+        if square.im.abs() <= REAL * square.re.abs() {
+            square.im = 0.0;
+        }
+        Wave { square, rate: None, vector }
+    };
+    Ok(found.into_iter().map(wave).collect())
+}
+
+/// An eigenvalue of an operator with its vector, real and imaginary parts.
+pub(super) type Ritz = (Complex<f64>, [Vec<f64>; 2]);
+
+/// The `count` largest eigenvalues of an operator with their vectors, those of a conjugate pair both counted; fewer where there are
+/// no more, or where a space of `most` vectors shows no more.
+pub(super) fn largest<O: Operator>(operator: O, count: usize, most: usize) -> Result<Vec<Ritz>, Trouble> {
+    let mut space = Space { operator, vectors: Vec::new(), heavy: Vec::new(), images: Vec::new(), next: 0 };
+    let (mut dead, mut since) = (0, 0);
+    loop {
+        let is_fresh = space.vectors.len() < BLOCK || space.next >= space.vectors.len();
+        if space.grow(is_fresh, dead)? {
+            since += 1;
+        } else {
+            dead += usize::from(is_fresh);
+        }
+        let exhausted = dead > 3 || space.vectors.len() >= most;
+        if exhausted || since >= LOOK && space.vectors.len() > count + 2 {
+            since = 0;
+            let open = space.open();
+            let found = project(&space.heavy, &space.images, &open, count).ok_or(Trouble::Missing)?;
+            if found.len() >= count || exhausted {
+                return Ok(found);
+            }
+        }
+    }
+}
+
+/// A Krylov space, orthonormal in the operator's product.
+struct Space<O> {
+    operator: O,
+    vectors: Vec<DVector<f64>>,
+    /// W times each.
+    heavy: Vec<DVector<f64>>,
+    /// What the operator makes of each.
+    images: Vec<DVector<f64>>,
+    /// Whose image is the next to be taken in.
+    next: usize,
+}
+
+impl<O: Operator> Space<O> {
     fn length(&self, x: &DVector<f64>) -> f64 {
-        x.dot(&self.weighed(x)).max(0.0).sqrt()
+        x.dot(&self.operator.weighed(x)).max(0.0).sqrt()
     }
 
     /// Without what lies along the vectors so far.
@@ -103,10 +162,9 @@ impl<'v> Space<'v> {
     fn grow(&mut self, is_fresh: bool, dead: usize) -> Result<bool, Trouble> {
         let candidate = if is_fresh {
             let seed = (self.vectors.len() + 7 * dead) as f64 + 1.3;
-            let noise = DVector::from_fn(self.vibration.size, |i, _| ((2.4 * i as f64 + 0.7) * seed).sin());
-            let mut x = self.weighed(&noise);
-            self.matrix.solve(x.as_mut_slice());
-            x
+            let noise = DVector::from_fn(self.operator.size(), |i, _| ((2.4 * i as f64 + 0.7) * seed).sin());
+            let weighed = self.operator.weighed(&noise);
+            self.operator.apply(&noise, &weighed)
         } else {
             self.next += 1;
             self.images[self.next - 1].clone()
@@ -121,9 +179,8 @@ impl<'v> Space<'v> {
             return Ok(false);
         }
         candidate /= size;
-        let heavy = self.weighed(&candidate);
-        let mut image = heavy.clone();
-        self.matrix.solve(image.as_mut_slice());
+        let heavy = self.operator.weighed(&candidate);
+        let image = self.operator.apply(&candidate, &heavy);
         self.vectors.push(candidate);
         self.heavy.push(heavy);
         self.images.push(image);
@@ -143,8 +200,7 @@ fn project(
     images: &[DVector<f64>],
     open: &[(usize, f64)],
     count: usize,
-    sigma: f64,
-) -> Option<Vec<Wave>> {
+) -> Option<Vec<Ritz>> {
     let m = images.len();
     let small = DMatrix::from_fn(m, m, |i, j| heavy[i].dot(&images[j]));
     let mut all: Vec<Complex<f64>> = eigenvalues(small.clone())?.iter().copied().collect();
@@ -160,10 +216,6 @@ fn project(
         if missed > RESIDUAL * size {
             break;
         }
-        let mut square = Complex::new(sigma, 0.0) + Complex::new(1.0, 0.0) / theta;
-        if square.im.abs() <= REAL * square.re.abs() {
-            square.im = 0.0;
-        }
         let mut vector = [vec![0.0; images[0].len()], vec![0.0; images[0].len()]];
         for (image, weight) in images.iter().zip(weights.iter()) {
             let weight = weight / theta;
@@ -172,7 +224,7 @@ fn project(
                 vector[1][i] += weight.im * value;
             }
         }
-        found.push(Wave { square, vector });
+        found.push((theta, vector));
     }
     Some(found)
 }

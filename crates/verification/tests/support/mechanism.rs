@@ -73,6 +73,7 @@ pub fn mechanism(draw: &Draw) -> Model {
         curve,
         frame: SectionFrame::Natural,
         theory,
+        damping: 0.0,
         start,
         end,
         distributed: Vec::new(),
@@ -164,8 +165,13 @@ fn add_sections(model: &mut Model) {
 fn add_joints_and_loads(model: &mut Model, along: Vector3<f64>, across: Vector3<f64>) {
     let (stage, lever) = (Mount::Body(BodyId(STAGE)), Mount::Body(BodyId(1)));
     let mut turn = JointLaw::free(JointKind::Revolute, Vector3::new(0.6, 0.0, 0.8));
-    turn.coordinates[0] =
-        CoordinateLaw { drive: Drive::Free { effort: 0.1 }, stiffness: 0.7, rest: 0.2, limits: None };
+    turn.coordinates[0] = CoordinateLaw {
+        drive: Drive::Free { effort: 0.1 },
+        stiffness: 0.7,
+        rest: 0.2,
+        damping: 0.0,
+        limits: None,
+    };
     model.joints.push(Joint {
         name: "turn".to_string(),
         parent: Frame { mount: stage, pose: placed([0.1, 0.0, 0.3], [0.1, 0.2, 0.0]) },
