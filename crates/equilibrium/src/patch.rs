@@ -41,6 +41,44 @@ fn changes<'m, T: PartialEq>(
     (own.len() == other.len()).then(|| pairs.filter(|(_, (a, b))| a != b))
 }
 
+fn same_but_what_is_patched(own: &Model, other: &Model) -> bool {
+    let Model {
+        name: _,
+        gravity,
+        spin,
+        mass_damping,
+        parameters: _,
+        bindings: _,
+        materials: _,
+        sections: _,
+        beams: _,
+        bodies,
+        joints: _,
+        couplings,
+        springs: _,
+        cables,
+        tubes,
+        masses,
+        loads: _,
+        outputs,
+        unknowns,
+        targets,
+        studies: _,
+    } = own;
+    *gravity == other.gravity
+        && *spin == other.spin
+        && *mass_damping == other.mass_damping
+        && *bodies == other.bodies
+        && *couplings == other.couplings
+        && *cables == other.cables
+        && *tubes == other.tubes
+        && *masses == other.masses
+        && *outputs == other.outputs
+        && *unknowns == other.unknowns
+        && targets.len() == other.targets.len()
+        && targets.iter().zip(&other.targets).all(|(a, b)| a.output == b.output)
+}
+
 fn same_but_value(own: &Parameter, other: &Parameter) -> bool {
     let Parameter { name, value: _, unit, formula: _, is_structural } = own;
     *name == other.name && *unit == other.unit && *is_structural == other.is_structural
@@ -52,8 +90,10 @@ fn same_but_strength(own: &Load, other: &Load) -> bool {
 }
 
 fn same_but_loads(own: &Beam, other: &Beam) -> bool {
-    let Beam { name, material, section, curve, frame, theory, start, end, distributed: _, foundation } = own;
-    *name == other.name
+    let Beam { name, material, section, curve, frame, theory, start, end, distributed: _, foundation, damping } =
+        own;
+    *damping == other.damping
+        && *name == other.name
         && *material == other.material
         && *section == other.section
         && *theory == other.theory
@@ -75,10 +115,11 @@ fn is_between_the_same(own: &Spring, other: &Spring) -> bool {
 fn same_but_drives(own: &Joint, other: &Joint) -> bool {
     let Joint { name, parent, child, child_pose, law } = own;
     let alike = |(a, b): (&CoordinateLaw, &CoordinateLaw)| {
-        let CoordinateLaw { drive, rest: _, stiffness, limits } = a;
+        let CoordinateLaw { drive, rest: _, stiffness, limits, damping } = a;
         std::mem::discriminant(drive) == std::mem::discriminant(&b.drive)
             && *stiffness == b.stiffness
             && *limits == b.limits
+            && *damping == b.damping
     };
     *name == other.name
         && *parent == other.parent
@@ -99,17 +140,7 @@ impl Equilibrium {
     /// A beam has no sound law.
     pub(crate) fn patch(&self, model: &Model) -> Option<Result<Patch, ProblemError>> {
         let own = &self.model;
-        let same = own.gravity == model.gravity
-            && own.bodies == model.bodies
-            && own.couplings == model.couplings
-            && own.cables == model.cables
-            && own.tubes == model.tubes
-            && own.masses == model.masses
-            && own.unknowns == model.unknowns
-            && own.targets.len() == model.targets.len()
-            && own.targets.iter().zip(&model.targets).all(|(a, b)| a.output == b.output)
-            && own.outputs == model.outputs;
-        if !same || self.lowered.beams.iter().any(|law| law.is_softened()) {
+        if !same_but_what_is_patched(own, model) || self.lowered.beams.iter().any(|law| law.is_softened()) {
             return None;
         }
         let mut patch = Patch::default();

@@ -174,6 +174,8 @@ impl Model {
             issues.finite(format_args!("parameter.{}", parameter.name), parameter.value);
         }
         let is_elsewhere = self.gravity != sound.gravity
+            || self.spin != sound.spin
+            || self.mass_damping != sound.mass_damping
             || self.bodies != sound.bodies
             || self.beams != sound.beams
             || self.couplings != sound.couplings
