@@ -30,6 +30,13 @@ struct Whole {
     known_force: Vec<Vector3<f64>>,
 }
 
+impl Law {
+    /// Does it hold everything, so that it may be put under any law of its problem?
+    pub fn is_whole(&self) -> bool {
+        matches!(self.0, Kind::Whole(_))
+    }
+}
+
 /// Places on beams whose compliance an output asks for.
 pub(crate) fn probes(model: &Model) -> Vec<BeamPoint> {
     let all = model.outputs.iter().chain(model.targets.iter().map(|t| &t.output));
@@ -56,8 +63,16 @@ impl Equilibrium {
     pub fn neighbour(&self, model: &Model) -> Result<Law, ProblemError> {
         match self.patch(model) {
             Some(patch) => Ok(Law(Kind::Patch(Box::new(patch?)))),
-            None => self.law_of(model.clone(), |_, _| None),
+            None => self.neighbour_whole(model),
         }
+    }
+
+    /// The same with everything in it, to be put under whatever law of this problem stands by then.
+    ///
+    /// # Errors
+    /// As [`Equilibrium::neighbour`].
+    pub fn neighbour_whole(&self, model: &Model) -> Result<Law, ProblemError> {
+        self.law_of(model.clone(), |_, _| None)
     }
 
     /// The same for a model in which something may happen along its beams where nothing did, or in another order: a load with a
@@ -66,8 +81,11 @@ impl Equilibrium {
     ///
     /// # Errors
     /// As [`Equilibrium::neighbour`].
-    pub fn neighbour_anew(&self, model: Model) -> Result<Law, ProblemError> {
-        self.law_of(model, |lowered, index| {
+    pub fn neighbour_anew(&self, model: &Model) -> Result<Law, ProblemError> {
+        if let Some(patch) = self.patch(model) {
+            return Ok(Law(Kind::Patch(Box::new(patch?))));
+        }
+        self.law_of(model.clone(), |lowered, index| {
             let (span, own) = (&lowered.spans[index], &self.lowered.spans[index]);
             let part = (span.s[1] - span.s[0]) / (own.s[1] - own.s[0]);
             let moved = |s: &f64| span.s[0] + part * (s - own.s[0]);

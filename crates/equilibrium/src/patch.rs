@@ -90,8 +90,19 @@ fn same_but_strength(own: &Load, other: &Load) -> bool {
 }
 
 fn same_but_loads(own: &Beam, other: &Beam) -> bool {
-    let Beam { name, material, section, curve, frame, theory, start, end, distributed: _, foundation, damping } =
-        own;
+    let Beam {
+        name,
+        material,
+        section,
+        curve,
+        frame,
+        theory,
+        start,
+        end,
+        distributed: _,
+        foundation,
+        damping,
+    } = own;
     *damping == other.damping
         && *name == other.name
         && *material == other.material

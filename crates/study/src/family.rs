@@ -22,6 +22,14 @@ pub trait Family {
         problem.neighbour(&self.model(values)?)
     }
 
+    /// The same where something may happen along beams where nothing did; see [`Equilibrium::neighbour_anew`].
+    ///
+    /// # Errors
+    /// As [`Family::law`].
+    fn law_anew(&mut self, problem: &Equilibrium, values: &[(usize, f64)]) -> Result<Law, ProblemError> {
+        problem.neighbour_anew(&self.model(values)?)
+    }
+
     /// Is it certain that only loads and drives of joints hang on this parameter, and these linearly?
     fn is_line(&mut self, _parameter: usize) -> bool {
         false
@@ -96,6 +104,10 @@ impl Family for ModelFamily<'_> {
 
     fn law(&mut self, problem: &Equilibrium, values: &[(usize, f64)]) -> Result<Law, ProblemError> {
         problem.neighbour(self.made(values)?)
+    }
+
+    fn law_anew(&mut self, problem: &Equilibrium, values: &[(usize, f64)]) -> Result<Law, ProblemError> {
+        problem.neighbour_anew(self.made(values)?)
     }
 
     fn is_line(&mut self, parameter: usize) -> bool {

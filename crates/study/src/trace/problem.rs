@@ -37,13 +37,22 @@ pub(crate) struct Traced<'a> {
     /// The parameter that is traced, and a second one.
     pub axes: [Axis; 2],
     parameters: Parameters,
-    laws: Vec<(Parameters, Law)>,
+    laws: Vec<Kept>,
     /// Where only loads and drives depend on the first parameter.
     line: Option<Line>,
     /// Why stability is not decided.
     pub undecided: Option<String>,
     /// Is the second parameter another one than the first?
     pub both: bool,
+}
+
+/// A law that was put away.
+struct Kept {
+    /// Of these parameters.
+    of: Parameters,
+    /// Where only what differs was exchanged: good while these stand.
+    beside: Parameters,
+    law: Law,
 }
 
 /// Everything that has to be put back to be at a point again, whatever the layout is by then.
@@ -88,11 +97,14 @@ impl<'a> Traced<'a> {
     /// # Errors
     /// The values make no sound model.
     pub fn model_at(&mut self, values: Parameters) -> Result<Model, Refusal> {
-        let mut list = vec![(self.axes[0].parameter, self.axes[0].value(values[0]))];
-        if self.both {
-            list.push((self.axes[1].parameter, self.axes[1].value(values[1])));
-        }
+        let list = self.list(values);
         self.family.model(&list).map_err(|error| Refusal::Parameter(error.message))
+    }
+
+    /// Parameters of the model and their values, SI.
+    fn list(&self, values: Parameters) -> Vec<(usize, f64)> {
+        let axes = self.axes.iter().zip(values).take(if self.both { 2 } else { 1 });
+        axes.map(|(axis, value)| (axis.parameter, axis.value(value))).collect()
     }
 
     /// The model with other values of any parameters (SI).
@@ -199,21 +211,20 @@ impl Problem for Traced<'_> {
             self.parameters = values;
             return Ok(());
         }
-        let law = match self.laws.iter().position(|(of, _)| *of == values) {
-            Some(position) => self.laws.swap_remove(position).1,
+        let fits = |kept: &Kept| kept.of == values && (kept.law.is_whole() || kept.beside == self.parameters);
+        let law = match self.laws.iter().position(fits) {
+            Some(position) => self.laws.swap_remove(position).law,
             None => {
-                let model = self.model_at(values)?;
-                self.prepared
-                    .problem
-                    .neighbour_anew(model)
-                    .map_err(|error| Refusal::Parameter(error.message))?
+                let list = self.list(values);
+                let law = self.family.law_anew(&self.prepared.problem, &list);
+                law.map_err(|error| Refusal::Parameter(error.message))?
             }
         };
         let old = self.prepared.problem.exchange(law);
         if self.laws.len() == KEPT {
             self.laws.remove(0);
         }
-        self.laws.push((self.parameters, old));
+        self.laws.push(Kept { of: self.parameters, beside: values, law: old });
         self.parameters = values;
         Ok(())
     }
