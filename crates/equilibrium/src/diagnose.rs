@@ -254,6 +254,7 @@ impl Equilibrium {
             }
         }
         self.contact_warnings(&mut warnings);
+        self.leaf_warnings(&mut warnings);
         warnings
     }
 

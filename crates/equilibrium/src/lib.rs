@@ -35,6 +35,7 @@ mod foundation;
 mod head;
 mod held;
 mod layout;
+mod leaves;
 mod lift;
 mod look;
 mod lower;
