@@ -40,6 +40,8 @@ pub enum Command {
     Check(CheckArguments),
     /// List the bundled models, or write one of them here
     Examples(ExamplesArguments),
+    /// List the library of materials, with their sources, or tell one of them
+    Materials(MaterialsArguments),
     /// Write the page that shows a result, and open it in the browser
     View(ViewArguments),
     /// Print the JSON Schema of model files, for editors
@@ -349,6 +351,15 @@ pub struct ExamplesArguments {
     /// Overwrite a file of that name
     #[arg(long, requires = "name")]
     pub force: bool,
+}
+
+#[derive(Args)]
+pub struct MaterialsArguments {
+    /// Only this one
+    pub name: Option<String>,
+    /// As JSON, SI units
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Args)]

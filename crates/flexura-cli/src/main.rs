@@ -55,6 +55,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Examples(arguments) => commands::examples::run(&arguments),
         Command::View(arguments) => commands::view::run(&arguments),
+        Command::Materials(arguments) => commands::materials::run(&arguments),
         Command::Schema => commands::schema::run(),
         Command::Completions(arguments) => commands::completions::run(&arguments),
     };

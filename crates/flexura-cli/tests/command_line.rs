@@ -139,3 +139,18 @@ fn help_names_every_verb_and_the_exit_codes() {
         assert!(stdout(&output).contains(word), "{word}");
     }
 }
+
+#[test]
+fn the_library_of_materials_is_listed_with_its_sources() {
+    let output = run(&["materials"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    for words in ["spring-steel", "206", "81.5", "EN 10270-1", "carbon-epoxy-ud"] {
+        assert!(stdout(&output).contains(words), "{words}: {}", stdout(&output));
+    }
+    let json: serde_json::Value =
+        serde_json::from_str(&stdout(&run(&["materials", "peek", "--json"]))).unwrap();
+    assert_eq!(json["peek"]["young"], 4e9);
+    let refused = run(&["materials", "peak"]);
+    assert_eq!(code(&refused), 2);
+    assert!(stderr(&refused).contains("did you mean `peek`?"), "{}", stderr(&refused));
+}

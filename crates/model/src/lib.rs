@@ -18,6 +18,7 @@ mod inverse;
 mod joint;
 mod load;
 mod material;
+mod materials;
 mod motion;
 mod notch;
 mod output;
@@ -49,6 +50,7 @@ pub use joint::{
 };
 pub use load::{Attachment, BeamPoint, Load, LoadFrame, LoadTarget, PointMass};
 pub use material::{Material, Section, Shape};
+pub use materials::{KnownMaterial, MATERIALS, Shear, known_material};
 pub use motion::{InverseDynamicsStudy, MotionLaw, Pace, Sampling, Until};
 pub use notch::{Notch, NotchShape};
 pub use output::{Output, Probe, ProbeTarget, Quantity};

@@ -7,6 +7,7 @@ mod earlier;
 pub mod examples;
 pub mod fit;
 pub mod formula;
+pub mod materials;
 pub mod modes;
 pub mod motion;
 pub mod optimise;

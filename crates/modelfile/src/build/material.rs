@@ -1,22 +1,46 @@
 //! Materials and cross sections.
 
 use super::named_entries;
-use crate::context::{Context, Needed, Read, Reported};
+use crate::context::{Context, Needed, Read, Reported, suggest};
 use crate::format::{Key, Need, Shape as Format};
 use crate::reader::Reader;
 use crate::tree::{Node, Value};
 use flexura_expression::{Dimension, nearest};
-use flexura_model::{At, Material, Model, Notch, NotchShape, Profile, Rule, Section, Shape};
+use flexura_model::{
+    At, KnownMaterial, MATERIALS, Material, Model, Notch, NotchShape, Profile, Rule, Section, Shape, Shear,
+    known_material,
+};
 use flexura_spatial::Matrix6;
 use std::collections::BTreeMap;
 
 pub(super) fn material(reader: &Reader<'_, '_>, name: String) -> Read<Material> {
-    let young = reader.number("young").needed();
+    let known = known(reader);
+    let young = reader.number("young");
     let shear = reader.number("shear");
     let poisson = reader.number("poisson");
     let density = reader.number("density");
     let yield_strength = reader.number("yield_strength");
-    let (young, given_shear, poisson) = (young?, shear?, poisson?);
+    let known = known?;
+    let (given_young, given_shear, poisson) = (young?, shear?, poisson?);
+    let young = match (given_young, known) {
+        (Some(young), _) => young,
+        (None, Some(known)) => known.young,
+        (None, None) => {
+            let hint =
+                "for example `young = \"207 GPa\"`, or a `library` material (`flexura materials` lists them)";
+            return Err(reader.wrong_with_hint("the key `young` is missing", hint));
+        }
+    };
+    // Another E of a material that is the same in all directions leaves Poisson's ratio as it is.
+    let ratio = known.and_then(|known| match known.shear {
+        Shear::Poisson(poisson) => Some(poisson),
+        Shear::Modulus(shear) if known.material().is_isotropic() => Some(known.young / (2.0 * shear) - 1.0),
+        Shear::Modulus(_) => None,
+    });
+    let poisson = match (poisson, given_shear, given_young) {
+        (None, None, Some(_)) => ratio,
+        _ => poisson,
+    };
     let shear = match (given_shear, poisson) {
         (Some(_), Some(_)) => {
             return Err(reader.wrong_at(
@@ -34,6 +58,7 @@ pub(super) fn material(reader: &Reader<'_, '_>, name: String) -> Read<Material> 
             bind_shear(reader, young, poisson);
             young / (2.0 * (1.0 + poisson))
         }
+        (None, None) if known.is_some() => known.map_or(f64::NAN, |known| known.shear_with(young)),
         (None, None) => {
             return Err(reader.wrong_with_hint(
                 "the key `shear` (or `poisson`) is missing",
@@ -41,7 +66,20 @@ pub(super) fn material(reader: &Reader<'_, '_>, name: String) -> Read<Material> 
             ));
         }
     };
-    Ok(Material { name, young, shear, density: density?, yield_strength: yield_strength? })
+    let density = density?.or(known.map(|known| known.density));
+    let yield_strength = yield_strength?.or(known.and_then(|known| known.yield_strength));
+    Ok(Material { name, young, shear, density, yield_strength })
+}
+
+/// The entry of the library that a material takes its numbers from.
+fn known(reader: &Reader<'_, '_>) -> Read<Option<&'static KnownMaterial>> {
+    let Some(name) = reader.text("library")? else { return Ok(None) };
+    if let Some(known) = known_material(name) {
+        return Ok(Some(known));
+    }
+    let names: Vec<&str> = MATERIALS.iter().map(|known| known.name).collect();
+    let hint = suggest(name, &names, "material of the library");
+    Err(reader.wrong_at("library", format!("the library has no material `{name}`"), hint))
 }
 
 /// The rule of a shear modulus that is given by Poisson's ratio.

@@ -182,7 +182,20 @@ pub(crate) const REPEAT: Key = key(
 pub(crate) static MATERIAL: Table = table(
     "A linear elastic material: isotropic with `poisson`; with `shear`, E and G stand for themselves, as along the fibres of a composite.",
     &[
-        key("young", Shape::Number(D::PRESSURE), Required, "\"207 GPa\"", "Young's modulus."),
+        key(
+            "library",
+            Shape::Text,
+            Optional,
+            "\"spring-steel\"",
+            "A material that `flexura materials` lists; what stands beside it takes the place of its numbers.",
+        ),
+        key(
+            "young",
+            Shape::Number(D::PRESSURE),
+            Optional,
+            "\"207 GPa\"",
+            "Young's modulus; needed without `library`.",
+        ),
         key("shear", Shape::Number(D::PRESSURE), Optional, "\"79.3 GPa\"", "Shear modulus."),
         key(
             "poisson",
