@@ -26,6 +26,7 @@ mod element;
 mod mass;
 mod rule;
 mod shape;
+mod tail;
 
 pub use shape::Swing;
 

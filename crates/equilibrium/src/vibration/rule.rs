@@ -19,6 +19,10 @@ pub(super) struct Rule {
     /// For each Gauss point the values of all nodes' polynomials, and their slopes.
     pub values: Vec<Vec<f64>>,
     pub slopes: Vec<Vec<f64>>,
+    /// 1/∏(x_j - x_k) of each node.
+    barycentric: Vec<f64>,
+    /// Coefficients in the Legendre series of what has values at the nodes, as weights of these: of the last four degrees.
+    pub tail: Vec<(usize, Vec<f64>)>,
 }
 
 /// P_n and P_n' at x.
@@ -70,9 +74,36 @@ impl Rule {
             point_weights,
             values: Vec::new(),
             slopes: Vec::new(),
+            barycentric: Vec::new(),
+            tail: Vec::new(),
         };
+        this.barycentric = (0..=n)
+            .map(|j| {
+                (0..=n).filter(|k| *k != j).map(|k| this.nodes[j] - this.nodes[k]).product::<f64>().recip()
+            })
+            .collect();
+        // Gauss-Lobatto sums are exact for all degrees but the square of the last, which they make 2/n instead of 2/(2n + 1).
+        let coefficients = |degree: usize| {
+            let square = if degree == n { 2.0 / n as f64 } else { 2.0 / (2 * degree + 1) as f64 };
+            let each = this.nodes.iter().zip(&this.node_weights);
+            (degree, each.map(|(x, weight)| weight * legendre(degree, *x).0 / square).collect())
+        };
+        this.tail = (n.saturating_sub(3)..=n).map(coefficients).collect();
         (this.values, this.slopes) = this.points.iter().map(|x| this.at(*x)).unzip();
         this
+    }
+
+    /// Values of the nodes' polynomials at x in [-1, 1], by the barycentric formula (J.-P. Berrut and L. N. Trefethen, *SIAM Rev.* 46
+    /// (2004) 501).
+    pub fn weights_at(&self, x: f64) -> Vec<f64> {
+        if let Some(hit) = self.nodes.iter().position(|node| *node == x) {
+            return (0..self.nodes.len()).map(|j| if j == hit { 1.0 } else { 0.0 }).collect();
+        }
+        let mut values: Vec<f64> =
+            self.nodes.iter().zip(&self.barycentric).map(|(node, weight)| weight / (x - node)).collect();
+        let sum = values.iter().sum::<f64>().recip();
+        values.iter_mut().for_each(|value| *value *= sum);
+        values
     }
 
     /// Values and slopes of the nodes' polynomials at x in [-1, 1].
@@ -126,7 +157,21 @@ mod tests {
             let (weights, slopes) = rule.at(x);
             let dot = |w: &[f64]| w.iter().zip(&values).map(|(w, v)| w * v).sum::<f64>();
             assert!((dot(&weights) - of(x)).abs() < 1e-13);
+            assert!((dot(&rule.weights_at(x)) - of(x)).abs() < 1e-13);
             assert!((dot(&slopes) - (3.0 * x.powi(5) - 2.0)).abs() < 1e-12);
+        }
+    }
+    #[test]
+    fn the_tail_holds_the_last_coefficients_of_a_series() {
+        let rule = Rule::new(7);
+        let values: Vec<f64> = rule
+            .nodes
+            .iter()
+            .map(|x| 0.3 * legendre(7, *x).0 - 2.0 * legendre(6, *x).0 + legendre(3, *x).0)
+            .collect();
+        for ((_, weights), wanted) in rule.tail.iter().zip([0.0, 0.0, -2.0, 0.3]) {
+            let found: f64 = weights.iter().zip(&values).map(|(w, v)| w * v).sum();
+            assert!((found - wanted).abs() < 1e-13);
         }
     }
 }

@@ -22,6 +22,16 @@ pub struct Swing {
 }
 
 impl Swing {
+    /// Arc lengths (m) along a beam, close enough that no more than one zero of the motion lies between two of them, ends included.
+    pub fn places(&self, beam: usize) -> Vec<f64> {
+        let parts = 3 * self.rule.first().map_or(1, |rule| rule.order);
+        let mut places = vec![0.0];
+        for (ends, _) in &self.beams[beam] {
+            places.extend((1..=parts).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / parts as f64));
+        }
+        places
+    }
+
     /// The motion of a beam's section at an arc length (m).
     pub fn beam(&self, beam: usize, s: f64) -> Twist {
         let list = &self.beams[beam];
@@ -30,7 +40,7 @@ impl Swing {
             return Twist { angular: V::zeros(), linear: V::zeros() };
         };
         let x = (2.0 * (s - ends[0]) / (ends[1] - ends[0]) - 1.0).clamp(-1.0, 1.0);
-        let (values, _) = rule.at(x);
+        let values = rule.weights_at(x);
         let sum: Vector6<f64> = nodes.iter().zip(&values).map(|(node, value)| node * *value).sum();
         Twist {
             angular: V::new(sum[0], sum[1], sum[2]),

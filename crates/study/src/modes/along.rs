@@ -5,7 +5,7 @@
 //! R. J. Allemang, *Sound and Vibration* 37 (2003) 14). So frequencies that cross keep their names, and those that only come near (veer)
 //! exchange their shapes gradually.
 
-use super::{Spectrum, Trouble, explain, reading, refuse, spectrum};
+use super::{Bench, Spectrum, Trouble, explain, reading, refuse, spectrum};
 use crate::{ModelFamily, Options, Prepared, ProblemError, TraceProgress, trace};
 use flexura_equilibrium::{Equilibrium, Footing};
 use flexura_model::{Model, ModesPath, ModesStudy, TraceStudy};
@@ -44,7 +44,7 @@ pub fn modes_along(
         ..options.clone()
     };
     let mut trace = trace(model, &way, &shaped, &mut |told| progress(told))?;
-    let mut walk = Walk { model, study, options, prepared: None, near: None };
+    let mut walk = Walk { model, study, options, prepared: None, near: None, bench: Bench::default() };
     let mut followed = Vec::with_capacity(trace.branches.len());
     let mut astray = 0;
     for branch in &trace.branches {
@@ -64,7 +64,7 @@ pub fn modes_along(
             };
             list.push(match found {
                 Some((spectrum, signatures)) => {
-                    let row = reading::rates(&spectrum);
+                    let row = reading::rates(spectrum);
                     let grow = row.iter().filter(|mode| mode.growth > 0.0).count();
                     let counted = point.unstable_directions.filter(|_| spectrum.has_energy);
                     astray += usize::from(counted.is_some_and(|counted| counted.min(row.len()) != grow));
@@ -104,12 +104,13 @@ struct Walk<'a> {
     study: &'a ModesStudy,
     options: &'a Options,
     prepared: Option<Prepared>,
-    /// The highest ω² of the point before.
-    near: Option<f64>,
+    /// What was found at the point before.
+    near: Option<Spectrum>,
+    bench: Bench,
 }
 
 /// A spectrum, with the shapes by which its modes are told again.
-type Seen = (Spectrum, Vec<Vec<f64>>);
+type Seen<'s> = (&'s Spectrum, Vec<Vec<f64>>);
 
 impl Walk<'_> {
     /// The modes at a point of the path, found again from its shape, with what tells their shapes; None where the point is critical.
@@ -118,7 +119,7 @@ impl Walk<'_> {
         parameter: usize,
         point: &TracePoint,
         from: &Solution,
-    ) -> Result<Option<Seen>, ProblemError> {
+    ) -> Result<Option<Seen<'_>>, ProblemError> {
         use crate::Family;
         let model = ModelFamily::new(self.model).model(&[(parameter, point.parameter)])?;
         if let Some(prepared) = &mut self.prepared {
@@ -137,13 +138,11 @@ impl Walk<'_> {
         if prepared.solve_near(from, self.options.tolerance).is_none() {
             return Ok(None);
         }
-        match spectrum(&mut prepared.problem, self.study.count, self.near) {
+        match spectrum(&mut prepared.problem, &mut self.bench, self.study.count, self.near.as_ref()) {
             Ok(found) => {
-                let highest = found.waves.iter().map(super::Wave::size).fold(0.0, f64::max);
-                self.near = (highest > 0.0).then_some(highest * found.vibration.unit);
                 let tell = |wave: &super::Wave| signature(&prepared.problem, &found, &wave.vector[0]);
                 let signatures = found.waves.iter().map(tell).collect();
-                Ok(Some((found, signatures)))
+                Ok(Some((&*self.near.insert(found), signatures)))
             }
             Err(Trouble::Breakdown(Breakdown::Interrupted) | Trouble::Missing) => Ok(None),
             Err(trouble) => Err(explain(&trouble)),

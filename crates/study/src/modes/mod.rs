@@ -1,8 +1,8 @@
 //! Natural frequencies and shapes about an equilibrium, or about the state at rest.
 //!
 //! Beams are cut into elements of high order on the solved shape (`flexura_equilibrium::Vibration`). What is found with elements that
-//! resolve the waves of the highest frequency wanted is found again with elements of higher order, until both agree: the error falls
-//! like the 2p-th power of the element's length, so that their difference bounds what is left.
+//! resolve the waves of the highest frequency wanted is believed where the last degrees of the polynomials hold next to nothing of the
+//! shapes' energy; else, and where there is no energy, it is found again with elements of higher order until two orders agree.
 
 mod along;
 mod damped;
@@ -18,7 +18,7 @@ use flexura_model::{Model, ModesStudy, StudyKind};
 use flexura_nonlinear::{Breakdown, PathOptions, System};
 use flexura_solution::{Modes, Solution, Status};
 use nalgebra::Complex;
-use pencil::{Pair, Shifted, Trouble};
+use pencil::{Bench, FAIR, Pair, SHARP, Shifted, Start, Trouble};
 use unsymmetric::Wave;
 
 /// Orders of elements, from the first try on.
@@ -78,7 +78,7 @@ pub fn modes(
         return Ok(empty(solution));
     }
     refuse(prepared.problem())?;
-    let found = match spectrum(prepared.problem(), study.count, None) {
+    let found = match spectrum(prepared.problem(), &mut Bench::default(), study.count, None) {
         Ok(found) => found,
         Err(Trouble::Breakdown(Breakdown::Interrupted)) => {
             solution.status = Status::Interrupted;
@@ -172,44 +172,71 @@ pub(crate) struct Spectrum {
     pub exhausted: bool,
 }
 
-/// The lowest modes of the present state: all motions without stiffness and `count` more. `near` is the highest ω² (rad²/s²) that
-/// is expected.
-fn spectrum(problem: &mut Equilibrium, count: usize, near: Option<f64>) -> Result<Spectrum, Trouble> {
-    let mut detail = Detail { order: ORDERS[0], square: near.unwrap_or(0.0), phase: PHASE };
+/// The lowest modes of the present state: all motions without stiffness and `count` more. `near` is what was found at a state close
+/// by.
+fn spectrum(
+    problem: &mut Equilibrium,
+    bench: &mut Bench,
+    count: usize,
+    near: Option<&Spectrum>,
+) -> Result<Spectrum, Trouble> {
+    let mut detail = Detail { order: ORDERS[0], square: 0.0, phase: PHASE };
     let mut before: Option<Found> = None;
-    for &order in ORDERS.iter().chain(&ORDERS[1..]) {
+    if let Some(near) = near {
+        detail.square = BEYOND * highest(&near.waves) * near.vibration.unit;
+    } else {
+        // The first look says how short the waves are.
+        let look = Found::new(problem, bench, &detail, count, &mut Start::look(-1.0), None)?;
+        detail.square = BEYOND * highest(&look.waves) * look.vibration.unit;
+        before = Some(look);
+    }
+    let residual = if near.is_some() { FAIR } else { SHARP };
+    for (round, &order) in ORDERS[first..].iter().chain(&ORDERS).enumerate() {
         detail.order = order;
-        let hint = before.as_ref().map_or(-1.0, |found| found.below());
-        let mut found = Found::new(problem, &detail, count, hint)?;
-        if before.is_none() {
-            // The first look says how short the waves are.
-            let square = BEYOND * found.highest() * found.vibration.unit;
-            if square > detail.square {
-                detail.square = square;
-                let elements = found.vibration.elements;
-                let hint = found.below();
-                let finer = Found::new(problem, &detail, count, hint)?;
-                if finer.vibration.elements > elements {
-                    found = finer;
+        let (mut start, source) = match (&before, near) {
+            (Some(found), _) => (start(&found.waves, found.has_energy, residual), Some(&found.vibration)),
+            (None, Some(near)) => (start(&near.waves, near.has_energy, residual), Some(&near.vibration)),
+            (None, None) => (Start::look(-1.0), None),
+        };
+        let found = Found::new(problem, bench, &detail, count, &mut start, source)?;
+        let errors = found.tails(problem);
+        // Where nothing bounds what is missed, and where the bound is too wide, two orders must agree.
+        let compared = before.as_ref().filter(|_| round > 0).map(|before| found.errors(before));
+        let is_last = order == ORDERS[4];
+        for errors in [errors, compared].into_iter().flatten() {
+            if errors.iter().all(|error| *error <= AGREE) || is_last {
+                let agree = errors.iter().all(|error| *error <= DOUBTFUL);
+                if agree || detail.phase < 0.6 * PHASE {
+                    let exhausted = found.waves.len() < count + found.rigid();
+                    let has_energy = found.has_energy;
+                    let Found { vibration, waves, .. } = found;
+                    return Ok(Spectrum { vibration, order, waves, has_energy, errors, exhausted });
                 }
             }
         }
-        let errors = before.as_ref().map(|before| found.errors(before));
-        if let Some(errors) = errors
-            && (errors.iter().all(|error| *error <= AGREE) || order == ORDERS[4])
-        {
-            let agree = errors.iter().all(|error| *error <= DOUBTFUL);
-            if agree || detail.phase < 0.6 * PHASE {
-                let exhausted = found.waves.len() < count + found.rigid();
-                let has_energy = found.has_energy;
-                let Found { vibration, waves, .. } = found;
-                return Ok(Spectrum { vibration, order, waves, has_energy, errors, exhausted });
-            }
+        if is_last {
             detail.phase *= 0.5;
         }
         before = Some(found);
     }
     Err(Trouble::Missing)
+}
+
+fn highest(waves: &[Wave]) -> f64 {
+    waves.iter().map(Wave::size).fold(0.0, f64::max)
+}
+
+/// What a search for modes like these begins with.
+fn start(waves: &[Wave], has_energy: bool, residual: f64) -> Start {
+    let squares: Vec<f64> = waves.iter().map(|wave| wave.square.re).collect();
+    let below = if has_energy {
+        shift_below(&squares)
+    } else {
+        -0.3 * squares.iter().map(|square| square.abs()).find(|square| *square > 0.0).unwrap_or(1.0)
+    };
+    let vectors =
+        if has_energy { waves.iter().map(|wave| wave.vector[0].clone()).collect() } else { Vec::new() };
+    Start { below, vectors, prove: true, residual }
 }
 
 /// A shift below ω² that are known roughly.
@@ -227,8 +254,19 @@ struct Found {
 }
 
 impl Found {
-    fn new(problem: &mut Equilibrium, detail: &Detail, count: usize, hint: f64) -> Result<Self, Trouble> {
+    /// Vectors of the start belong to `source`.
+    fn new(
+        problem: &mut Equilibrium,
+        bench: &mut Bench,
+        detail: &Detail,
+        count: usize,
+        start: &mut Start,
+        source: Option<&Vibration>,
+    ) -> Result<Self, Trouble> {
         let vibration = problem.vibration(detail)?;
+        if let Some(source) = source {
+            start.vectors.iter_mut().for_each(|x| *x = problem.carried(source, x, &vibration));
+        }
         if vibration.inertia.is_empty() {
             return Err(Trouble::Weightless);
         }
@@ -239,9 +277,9 @@ impl Found {
             other => other,
         };
         let waves = if is_quadratic {
-            damped::slowest(&vibration, count, hint.abs().sqrt()).map_err(named)?
+            damped::slowest(&vibration, count, start.below.abs().sqrt()).map_err(named)?
         } else if has_energy {
-            let pairs = counted(&vibration, count, hint).map_err(named)?;
+            let pairs = counted(&vibration, bench, count, start).map_err(named)?;
             let real = |(square, x): Pair| Wave {
                 square: Complex::new(square, 0.0),
                 rate: None,
@@ -249,22 +287,15 @@ impl Found {
             };
             pairs.into_iter().map(real).collect()
         } else {
-            complex(&vibration, count, hint).map_err(named)?
+            complex(&vibration, count, start.below).map_err(named)?
         };
         Ok(Self { vibration, waves, has_energy: has_energy && !is_quadratic })
     }
 
-    /// A shift for the next look.
-    fn below(&self) -> f64 {
-        let squares: Vec<f64> = self.waves.iter().map(|wave| wave.square.re).collect();
-        if self.has_energy {
-            return shift_below(&squares);
-        }
-        -0.3 * squares.iter().map(|square| square.abs()).find(|square| *square > 0.0).unwrap_or(1.0)
-    }
-
-    fn highest(&self) -> f64 {
-        self.waves.iter().map(Wave::size).fold(0.0, f64::max)
+    /// Relative errors of ω² by what elements leave of the shapes, where there is an energy.
+    fn tails(&self, problem: &Equilibrium) -> Option<Vec<f64>> {
+        let tail = |wave: &Wave| problem.unresolved(&self.vibration, &wave.vector[0], wave.square.re);
+        self.has_energy.then(|| self.waves.iter().map(tail).collect())
     }
 
     fn rigid(&self) -> usize {
@@ -284,9 +315,14 @@ impl Found {
 }
 
 /// The lowest ω² of a mechanism that has an energy, all of them.
-fn counted(vibration: &Vibration, count: usize, hint: f64) -> Result<Vec<Pair>, Trouble> {
-    let mut shifted = Shifted::new(vibration);
-    let mut pairs = shifted.lowest(count, hint)?;
+fn counted(
+    vibration: &Vibration,
+    bench: &mut Bench,
+    count: usize,
+    start: &Start,
+) -> Result<Vec<Pair>, Trouble> {
+    let mut shifted = Shifted::new(vibration, bench);
+    let mut pairs = shifted.lowest(count, start)?;
     settle_rigid(vibration, &mut pairs);
     for _ in 0..ROUNDS {
         let scale = pairs.iter().map(|(square, _)| square.abs()).fold(0.0, f64::max);
@@ -298,7 +334,8 @@ fn counted(vibration: &Vibration, count: usize, hint: f64) -> Result<Vec<Pair>, 
         let below = pairs.first().map_or(0.0, |(square, _)| square.min(0.0));
         let next = pairs.iter().map(|(square, _)| *square).find(|square| *square > FAINT * scale);
         let hint = 1.7 * below - 0.4 * next.unwrap_or(1.0);
-        let mut again = shifted.lowest(count + small, hint)?;
+        let again = Start { below: hint, vectors: Vec::new(), prove: true, residual: start.residual };
+        let mut again = shifted.lowest(count + small, &again)?;
         settle_rigid(vibration, &mut again);
         for (i, (square, _)) in again.iter_mut().enumerate().take(small) {
             let apart = pairs.get(i).map_or(f64::INFINITY, |(before, _)| (*square - before).abs());

@@ -10,12 +10,21 @@ use flexura_equilibrium::Vibration;
 use flexura_nonlinear::{Breakdown, Symmetric};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-/// Vectors of the start.
-const BLOCK: usize = 4;
+/// Vectors of the start: as many as there are equal ω² where sections are round.
+const BLOCK: usize = 2;
+/// Vectors without a history where some are missing.
+const STIR: usize = 4;
 /// Vectors between two looks at what has been found.
-const LOOK: usize = 6;
-/// How well a Ritz pair must satisfy its equation.
-const RESIDUAL: f64 = 1e-10;
+const LOOK: usize = 4;
+/// How well a Ritz pair must satisfy its equation. The error of ω² is the square of this, that of the shape, which is taken from the
+/// image, this times the ratio of neighbouring θ.
+pub const SHARP: f64 = 1e-8;
+/// The same where shapes do not matter beyond being told apart.
+pub const FAIR: f64 = 3e-7;
+/// The same where ω² are wanted roughly.
+const ROUGH: f64 = 1e-4;
+/// Searches that may follow one another.
+const TRIES: usize = 7;
 /// Part of its length that may be left of a vector that says something new.
 const NEW: f64 = 1e-9;
 /// 1/ω² beside inertia over stiffness that is round-off.
@@ -55,15 +64,26 @@ pub type Pair = (f64, Vec<f64>);
 /// Factorises K - σ M for one shift after another.
 pub struct Shifted<'v> {
     vibration: &'v Vibration,
-    symmetric: Symmetric,
+    symmetric: &'v mut Symmetric,
     random: u64,
 }
 
+/// A matrix whose pattern serves one pencil after the other as long as these have the same unknowns.
+#[derive(Default)]
+pub struct Bench {
+    symmetric: Symmetric,
+    size: usize,
+    blocks: Vec<[usize; 2]>,
+}
+
 impl<'v> Shifted<'v> {
-    pub fn new(vibration: &'v Vibration) -> Self {
-        let mut symmetric = Symmetric::default();
-        symmetric.arrange(vibration.size, &vibration.blocks);
-        Self { vibration, symmetric, random: 0 }
+    pub fn new(vibration: &'v Vibration, bench: &'v mut Bench) -> Self {
+        let blocks: Vec<_> = vibration.blocks.iter().map(|block| [block.first, block.count]).collect();
+        if (bench.size, &bench.blocks) != (vibration.size, &blocks) {
+            bench.symmetric.arrange(vibration.size, &vibration.blocks);
+            (bench.size, bench.blocks) = (vibration.size, blocks);
+        }
+        Self { vibration, symmetric: &mut bench.symmetric, random: 0 }
     }
 
     /// How many ω² lie below σ; None where that cannot be told.
@@ -135,111 +155,137 @@ impl<'v> Shifted<'v> {
         Err(Trouble::Bottomless)
     }
 
-    /// The `count` lowest ω² with their vectors, of length one in M, or all where there are fewer; `hint` is thought to lie
-    /// below them.
-    pub fn lowest(&mut self, count: usize, hint: f64) -> Result<Vec<Pair>, Trouble> {
-        let sigma = self.settle(hint)?;
-        let mut space = Space::default();
-        let mut tries = 0;
-        loop {
-            let exhausted = self.grow(&mut space, count + 1, BLOCK)?;
+    /// The `count` lowest ω² with their vectors, of length one in M, or all where there are fewer.
+    pub fn lowest(&mut self, count: usize, start: &Start) -> Result<Vec<Pair>, Trouble> {
+        let sigma = self.settle(start.below)?;
+        let mut space = Space { starts: start.vectors.clone(), residual: start.residual, ..Space::default() };
+        let mut wanted = count;
+        for _ in 0..TRIES {
+            let exhausted = self.grow(&mut space, wanted)?;
             let mut found = space.pairs(sigma);
-            if found.len() < count && !exhausted {
+            if found.len() < wanted && !exhausted {
                 return Err(Trouble::Missing);
             }
-            // Where the list may be cut: between two that are not equal.
-            let mut last = count.min(found.len());
-            let tied = |a: f64, b: f64| b - a <= APART * b.abs() + ROUND * (b - sigma);
-            let counted = loop {
-                while last > 0 && last < found.len() && tied(found[last - 1].0, found[last].0) {
-                    last += 1;
-                }
-                let gap = match (last.checked_sub(1).map(|i| found[i].0), found.get(last)) {
-                    (Some(a), Some((b, _))) => 0.5 * (a + b),
-                    (Some(a), None) => a + (1e-3 * (a - sigma)).max(1e-6 * a.abs()),
-                    (None, _) => return Ok(Vec::new()),
-                };
-                // Where round-off makes two of motions without stiffness nothing lies between them.
-                match self.below(gap)? {
-                    None if last < found.len() => last += 1,
-                    counted => break counted,
-                }
-            };
+            if !start.prove || found.is_empty() {
+                found.truncate(count);
+                return Ok(found);
+            }
+            let (last, counted) = self.count(&found, wanted.min(found.len()), sigma)?;
             if counted == Some(last) {
                 found.truncate(count);
                 return Ok(found);
             }
-            tries += 1;
-            if tries > 6 {
-                return Err(Trouble::Missing);
-            }
             if self.below(sigma)? != Some(0) {
                 return Err(Trouble::Missing);
             }
-            space.stir = BLOCK;
+            // As many as there are, be they close to the last or equal to others.
+            let missing = counted.map_or(0, |counted| counted.saturating_sub(last));
+            wanted = if exhausted { wanted } else { last + missing.max(1) };
+            space.stir = STIR;
+        }
+        Err(Trouble::Missing)
+    }
+
+    /// Counts what lies below a shift beyond the first `last` of what was found, or beyond a few more, which are equal to these.
+    fn count(
+        &mut self,
+        found: &[Pair],
+        mut last: usize,
+        sigma: f64,
+    ) -> Result<(usize, Option<usize>), Breakdown> {
+        let tied = |a: f64, b: f64| b - a <= APART * b.abs() + ROUND * (b - sigma);
+        loop {
+            // Where the list may be cut: between two that are not equal.
+            while last < found.len() && tied(found[last - 1].0, found[last].0) {
+                last += 1;
+            }
+            let a = found[last - 1].0;
+            let gap =
+                found.get(last).map_or(a + (1e-3 * (a - sigma)).max(1e-6 * a.abs()), |(b, _)| 0.5 * (a + b));
+            // Where round-off makes two of motions without stiffness nothing lies between them.
+            match self.below(gap)? {
+                None if last < found.len() => last += 1,
+                counted => return Ok((last, counted)),
+            }
         }
     }
 
     /// Enlarges the space until it has `wanted` settled pairs; true where nothing is left to be added.
-    fn grow(&mut self, space: &mut Space, wanted: usize, block: usize) -> Result<bool, Trouble> {
+    fn grow(&mut self, space: &mut Space, wanted: usize) -> Result<bool, Trouble> {
         let most = self.vibration.size;
         let mut dead = 0;
-        let mut since = 0;
-        let target = space.vectors.len() + LOOK.min(wanted);
+        let mut look = (space.vectors.len() + space.stir).max(wanted) + space.starts.len().max(LOOK);
         loop {
-            let fresh = space.vectors.len() < block || space.stir > 0 || space.next >= space.vectors.len();
-            let mut candidate = if fresh {
+            let known = space.starts.pop();
+            let fresh = known.is_none()
+                && (space.vectors.len() < BLOCK || space.stir > 0 || space.next >= space.vectors.len());
+            let (candidate, before) = if let Some(x) = known {
+                let x = DVector::from_vec(x);
+                let length = self.length(&x);
+                (x, length)
+            } else if fresh {
                 space.stir = space.stir.saturating_sub(1);
-                let mut x = {
-                    let noise = self.noise();
-                    self.weighed(&noise)
-                };
+                let noise = self.noise();
+                let mut x = self.weighed(&noise);
                 self.symmetric.solve(x.as_mut_slice());
-                x
+                let length = self.length(&x);
+                (x, length)
             } else {
                 space.next += 1;
-                space.images[space.next - 1].clone()
+                let rest = &mut space.rests[space.next - 1];
+                (std::mem::take(&mut rest.vector), rest.whole)
             };
-            let before = self.length(&candidate);
-            for _ in 0..2 {
-                for (q, mq) in space.vectors.iter().zip(&space.weighed) {
-                    let part = mq.dot(&candidate);
-                    candidate.axpy(-part, q, 1.0);
-                }
-            }
-            let weighed = self.weighed(&candidate);
-            let length = candidate.dot(&weighed).max(0.0).sqrt();
-            if !length.is_finite() {
-                return Err(Trouble::Breakdown(Breakdown::NotFinite));
-            }
-            if length <= NEW * before || before == 0.0 {
-                if fresh {
-                    dead += 1;
-                }
+            if !self.take_in(space, candidate, before)? {
+                dead += usize::from(fresh);
                 if dead > 3 {
                     self.project(space);
                     return Ok(true);
-                }
-                continue;
-            }
-            candidate /= length;
-            let weighed = weighed / length;
-            let mut image = weighed.clone();
-            self.symmetric.solve(image.as_mut_slice());
-            space.add(candidate, weighed, image);
-            since += 1;
-            if since >= LOOK && space.vectors.len() >= target.max(wanted + 2) {
-                since = 0;
-                self.project(space);
-                if space.settled() >= wanted {
-                    return Ok(false);
                 }
             }
             if space.vectors.len() >= most {
                 self.project(space);
                 return Ok(true);
             }
+            if space.vectors.len() >= look {
+                look += LOOK;
+                self.project(space);
+                if space.settled() >= wanted {
+                    return Ok(false);
+                }
+            }
         }
+    }
+
+    /// Takes in what is new of a vector, with its image; false where nothing is. `before` is the length of what it was part of.
+    fn take_in(
+        &mut self,
+        space: &mut Space,
+        mut candidate: DVector<f64>,
+        before: f64,
+    ) -> Result<bool, Trouble> {
+        space.across(&mut candidate);
+        space.across(&mut candidate);
+        let mut weighed = self.weighed(&candidate);
+        let length = candidate.dot(&weighed).max(0.0).sqrt();
+        if !length.is_finite() {
+            return Err(Trouble::Breakdown(Breakdown::NotFinite));
+        }
+        if length <= NEW * before || before == 0.0 {
+            return Ok(false);
+        }
+        candidate /= length;
+        weighed /= length;
+        let mut image = weighed.clone();
+        self.symmetric.solve(image.as_mut_slice());
+        space.vectors.push(candidate);
+        space.weighed.push(weighed);
+        let whole = self.length(&image);
+        let mut rest = image.clone();
+        let column = space.across(&mut rest);
+        space.images.push(image);
+        space.columns.push(column);
+        space.rests.push(Rest { vector: rest, whole });
+        Ok(true)
     }
 
     /// Eigenvalues of what (K - σ M)⁻¹ M does within the space.
@@ -252,21 +298,19 @@ impl<'v> Shifted<'v> {
         if m == 0 {
             return;
         }
-        let raw = DMatrix::from_fn(m, m, |i, j| space.weighed[i].dot(&space.images[j]));
-        let eigen = SymmetricEigen::new((&raw + raw.transpose()) * 0.5);
+        // The part of an image along a later vector is that of the later one's image along the earlier: both are symmetric in M.
+        let raw = DMatrix::from_fn(m, m, |i, j| space.columns[i.max(j)][i.min(j)]);
+        let eigen = SymmetricEigen::new(raw);
         let mut order: Vec<usize> = (0..m).collect();
         order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
         // What the space does not hold of the images yet.
-        let open: Vec<(usize, f64)> = (space.next..m)
-            .map(|j| {
-                let mut rest = space.images[j].clone();
-                for (q, mq) in space.vectors.iter().zip(&space.weighed) {
-                    let part = mq.dot(&rest);
-                    rest.axpy(-part, q, 1.0);
-                }
-                (j, self.length(&rest))
-            })
-            .collect();
+        let mut open = Vec::with_capacity(m - space.next);
+        for j in space.next..m {
+            let mut rest = std::mem::take(&mut space.rests[j].vector);
+            space.across(&mut rest);
+            open.push((j, self.length(&rest)));
+            space.rests[j].vector = rest;
+        }
         let pair = |k: usize| {
             let theta = eigen.eigenvalues[k];
             let weights = eigen.eigenvectors.column(k).into_owned();
@@ -274,6 +318,33 @@ impl<'v> Shifted<'v> {
             (theta, weights, missed / theta.abs())
         };
         space.ritz = order.into_iter().map(pair).collect();
+    }
+}
+
+/// What an image has beyond the space as it was.
+struct Rest {
+    /// Empty once it was taken in.
+    vector: DVector<f64>,
+    /// Length of the image.
+    whole: f64,
+}
+
+/// With what a search begins.
+pub struct Start {
+    /// A shift that is thought to lie below all ω².
+    pub below: f64,
+    /// Vectors like those wanted.
+    pub vectors: Vec<Vec<f64>>,
+    /// Are they to be counted? Else one of several equal ones may be missing.
+    pub prove: bool,
+    /// How well they are to satisfy their equations.
+    pub residual: f64,
+}
+
+impl Start {
+    /// A rough look with nothing but a shift.
+    pub fn look(below: f64) -> Self {
+        Self { below, vectors: Vec::new(), prove: false, residual: ROUGH }
     }
 }
 
@@ -285,6 +356,13 @@ struct Space {
     weighed: Vec<DVector<f64>>,
     /// (K - σ M)⁻¹ M times each.
     images: Vec<DVector<f64>>,
+    /// Parts of each image along the vectors up to its own.
+    columns: Vec<Vec<f64>>,
+    rests: Vec<Rest>,
+    /// Vectors to be taken in first.
+    starts: Vec<Vec<f64>>,
+    /// How well a pair must satisfy its equation.
+    residual: f64,
     /// Whose image is the next to be taken in.
     next: usize,
     /// How many vectors without a history are to be taken in first.
@@ -296,10 +374,14 @@ struct Space {
 }
 
 impl Space {
-    fn add(&mut self, vector: DVector<f64>, weighed: DVector<f64>, image: DVector<f64>) {
-        self.vectors.push(vector);
-        self.weighed.push(weighed);
-        self.images.push(image);
+    /// Takes out of x what lies along the vectors, and gives its parts.
+    fn across(&self, x: &mut DVector<f64>) -> Vec<f64> {
+        let take = |(q, mq): (&DVector<f64>, &DVector<f64>)| {
+            let part = mq.dot(x);
+            x.axpy(-part, q, 1.0);
+            part
+        };
+        self.vectors.iter().zip(&self.weighed).map(take).collect()
     }
 
     fn combined(&self, of: &[DVector<f64>], weights: &DVector<f64>) -> DVector<f64> {
@@ -312,7 +394,7 @@ impl Space {
 
     /// How many of the largest are settled, without a gap.
     fn settled(&self) -> usize {
-        let is_settled = |pair: &&(f64, DVector<f64>, f64)| pair.0 > self.floor && pair.2 <= RESIDUAL;
+        let is_settled = |pair: &&(f64, DVector<f64>, f64)| pair.0 > self.floor && pair.2 <= self.residual;
         self.ritz.iter().take_while(is_settled).count()
     }
 

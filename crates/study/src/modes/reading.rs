@@ -155,26 +155,24 @@ fn shape(solution: &Solution, swing: &Swing) -> Direction {
 /// Places along each beam at which it passes through its rest position: where its displacement along the direction in which it moves
 /// most changes its sign, of a beam that moves across that direction nowhere.
 fn nodes(problem: &Equilibrium, swing: &Swing, size: f64) -> Vec<Vec<f64>> {
-    const PLACES: usize = 400;
-    let lengths = problem.beam_lengths();
-    let each = lengths.iter().enumerate().map(|(beam, length)| {
+    let beams = 0..problem.beam_lengths().len();
+    let each = beams.map(|beam| {
         let at = |s: f64| -> Vector3<f64> { swing.beam(beam, s).linear };
-        let place = |i: usize| length * i as f64 / PLACES as f64;
-        let most = (0..=PLACES).map(|i| at(place(i))).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+        let moved: Vec<(f64, Vector3<f64>)> = swing.places(beam).into_iter().map(|s| (s, at(s))).collect();
+        let most = moved.iter().map(|(_, shift)| *shift).max_by(|a, b| a.norm().total_cmp(&b.norm()));
         let Some(most) = most.filter(|most| most.norm() > STILL * size) else { return Vec::new() };
         let along = most.normalize();
-        let value = |s: f64| along.dot(&at(s));
-        let across = |s: f64| (at(s) - along * value(s)).norm();
+        let across = |s: f64| (at(s) - along * along.dot(&at(s))).norm();
         let mut found = Vec::new();
-        for i in 1..PLACES {
-            let (mut a, mut b) = (place(i), place(i + 1));
-            let (from, to) = (value(a), value(b));
-            if from == 0.0 || from * to >= 0.0 || i + 1 == PLACES && to.abs() < 1e-9 * most.norm() {
+        for (i, pair) in moved.windows(2).enumerate().skip(1) {
+            let ([mut a, mut b], [from, to]) =
+                ([pair[0].0, pair[1].0], [pair[0].1, pair[1].1].map(|x| along.dot(&x)));
+            if from == 0.0 || from * to >= 0.0 || i + 2 == moved.len() && to.abs() < 1e-9 * most.norm() {
                 continue;
             }
             for _ in 0..40 {
                 let middle = 0.5 * (a + b);
-                if value(middle) * from > 0.0 { a = middle } else { b = middle }
+                if along.dot(&at(middle)) * from > 0.0 { a = middle } else { b = middle }
             }
             if across(a) < 1e-3 * most.norm() {
                 found.push(0.5 * (a + b));
