@@ -220,7 +220,7 @@ fn filled(page: &str, folder: &Path) -> Result<String, String> {
 }
 
 fn copy_models(to: &Path) -> std::io::Result<()> {
-    for folder in ["", "wrong"] {
+    for folder in ["", "parts", "wrong", "wrong/parts"] {
         std::fs::create_dir_all(to.join(folder))?;
         for entry in std::fs::read_dir(root().join("models").join(folder))? {
             let entry = entry?;

@@ -80,7 +80,7 @@ impl Task {
     /// The scene of a document tells the model file too.
     pub fn with_text(&self, mut answer: Answer) -> Answer {
         if let Some(scene) = answer.document.as_mut().and_then(StudyDocument::scene) {
-            scene.text = Some(self.file.text().to_owned());
+            scene.text = Some(self.file.whole_text().into_owned());
         }
         answer
     }

@@ -149,7 +149,7 @@ impl Solved {
     fn document(&self, py: Python<'_>) -> PyResult<Option<String>> {
         let written = released(py, |_| {
             let mut whole = document(&self.model, &self.solution, &self.evaluation)?;
-            whole.scene.text = Some(self.request.file.text().to_owned());
+            whole.scene.text = Some(self.request.file.whole_text().into_owned());
             to_json(&whole)
         })?;
         match written {

@@ -50,7 +50,7 @@ impl Study {
     /// Does a study of a file's model, without the interpreter's lock.
     pub fn run(request: &Request, model: Model, study: &Described, options: &Options) -> Result<Self, Wrong> {
         let refused = |error| Wrong::of_study(&request.file, &study.name, &error);
-        let text = || Some(request.file.text().to_owned());
+        let text = || Some(request.file.whole_text().into_owned());
         let mut done = match &study.kind {
             StudyKind::Solve => {
                 let (solution, model) = solve_model(&model, options, &mut |_| {})?;

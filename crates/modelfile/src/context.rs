@@ -12,7 +12,6 @@ use flexura_expression::{
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
-use std::path::Path;
 
 /// A problem has been recorded; whoever gets this need not say more.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +35,6 @@ pub(crate) type Parameters = BTreeMap<String, Option<Quantity>>;
 
 pub(crate) struct Context<'a> {
     pub texts: &'a Texts,
-    pub folder: &'a Path,
     pub root: &'a Node,
     pub parameters: Parameters,
     names: BTreeMap<Named, BTreeMap<&'a str, usize>>,
@@ -66,10 +64,9 @@ pub(crate) struct Doubt {
 }
 
 impl<'a> Context<'a> {
-    pub(crate) fn new(texts: &'a Texts, folder: &'a Path, root: &'a Node) -> Self {
+    pub(crate) fn new(texts: &'a Texts, root: &'a Node) -> Self {
         Self {
             texts,
-            folder,
             root,
             parameters: Parameters::new(),
             names: names(root),
@@ -96,7 +93,6 @@ impl<'a> Context<'a> {
             copies: Some(&expanded.copies),
             is_overridden: self.is_overridden,
             texts: self.texts,
-            folder: self.folder,
             parameters: self.parameters,
             problems: self.problems,
             count: self.count,
@@ -123,7 +119,7 @@ impl<'a> Context<'a> {
         if self.is_copy(&problem.path) {
             // A mistake of the template is told once, however many copies have it.
             let mut alike = self.alike.borrow_mut();
-            let count = alike.entry((problem.span.start, problem.span.end)).or_insert(0);
+            let count = alike.entry(problem.place()).or_insert(0);
             *count += 1;
             if *count > 1 {
                 return Reported;
@@ -214,7 +210,7 @@ impl<'a> Context<'a> {
         let alike = self.alike.into_inner();
         let mut problems = self.problems.into_inner();
         for problem in &mut problems {
-            let count = alike.get(&(problem.span.start, problem.span.end)).copied().unwrap_or(1);
+            let count = alike.get(&problem.place()).copied().unwrap_or(1);
             if count > 1 && problem.message.ends_with(')') {
                 problem.message.pop();
                 let copies = if count == 2 { "another copy" } else { "more copies" };
@@ -224,10 +220,9 @@ impl<'a> Context<'a> {
         }
         let kept = problems.len();
         problems.sort_by_key(|problem| {
-            (
-                problem.source.as_ref().is_none_or(|source| source.name != self.texts.file.name),
-                problem.span.start,
-            )
+            let is_elsewhere =
+                problem.source.as_ref().is_none_or(|source| source.name != self.texts.file.name);
+            (is_elsewhere && problem.offset == 0, problem.place())
         });
         // One mistake may be met twice, as in an output of three components.
         problems.dedup();

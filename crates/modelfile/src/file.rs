@@ -51,6 +51,27 @@ pub(crate) fn read(path: &Path, name: &str) -> Result<String, Report> {
     })
 }
 
+/// The text of a file that a model file includes; why not, in a few words.
+pub(crate) fn included(path: &Path) -> Result<String, String> {
+    let refused = |error: std::io::Error| match error.kind() {
+        std::io::ErrorKind::Unsupported => {
+            "there are no files here; put its tables into this text".to_string()
+        }
+        _ => reason(&error),
+    };
+    if std::fs::metadata(path).map_err(refused)?.is_dir() {
+        return Err("it is a directory".to_string());
+    }
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)
+        .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
+        .map_err(refused)?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(format!("it is larger than {} MiB", LARGEST >> 20));
+    }
+    text(bytes)
+}
+
 fn text(bytes: Vec<u8>) -> Result<String, String> {
     if let Some(zero) = bytes.iter().position(|byte| *byte == 0) {
         return Err(format!("this is a binary file: byte {zero} is zero"));

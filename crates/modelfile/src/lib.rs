@@ -33,6 +33,7 @@ mod build;
 mod context;
 mod file;
 mod format;
+mod include;
 mod json;
 mod parameters;
 mod reader;
@@ -54,18 +55,17 @@ pub use write::to_toml;
 
 use context::{Context, Reported, suggest};
 use flexura_model::Model;
+use include::Files;
 use report::{Source, Texts};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
-use toml::de::DeTable;
-use tree::{Node, Value};
+use tree::Node;
 
 /// A model file whose text has been understood as TOML. The model is made of it by [`Document::model`],
 /// as often as wanted, each time with other overrides.
 #[derive(Clone, Debug)]
 pub struct Document {
     texts: Texts,
-    folder: PathBuf,
     root: Node,
 }
 
@@ -75,59 +75,27 @@ impl Document {
         let path = path.as_ref();
         let name = path.display().to_string();
         let text = file::read(path, &name)?;
-        Self::new(text, name, path.parent().unwrap_or(Path::new("")).to_path_buf())
+        Self::new(text, path.parent().unwrap_or(Path::new("")), name, Files::Disk)
     }
 
     /// Understands a text as a model file; `file_name` is shown in messages, and files that the text names
     /// are looked for in its folder.
     pub fn parse(text: &str, file_name: &str) -> Result<Self, Report> {
-        let folder = Path::new(file_name).parent().unwrap_or(Path::new("")).to_path_buf();
-        Self::new(text.to_string(), file_name.to_string(), folder)
+        let folder = Path::new(file_name).parent().unwrap_or(Path::new(""));
+        Self::new(text.to_string(), folder, file_name.to_string(), Files::Disk)
     }
 
-    fn new(text: String, name: String, folder: PathBuf) -> Result<Self, Report> {
+    /// The same, where the files that the text includes are not on disk but in `parts`: their paths, as seen from the
+    /// folder of the file, and their texts.
+    pub fn parse_with(text: &str, file_name: &str, parts: &[(&str, &str)]) -> Result<Self, Report> {
+        Self::new(text.to_string(), Path::new(""), file_name.to_string(), Files::Held(parts))
+    }
+
+    fn new(text: String, folder: &Path, name: String, files: Files<'_>) -> Result<Self, Report> {
+        let path = Path::new(&name).to_path_buf();
         let source = Arc::new(Source { name, text });
-        let at = |span, path: &str, message: String| Problem::at(&source, span, path, message);
-        if source.text.len() as u64 > file::LARGEST {
-            return Err(Report::input(vec![Problem::of_file(
-                &source.name,
-                "the text is larger than 16 MiB",
-            )]));
-        }
-        let (table, errors) = DeTable::parse_recoverable(&source.text);
-        if !errors.is_empty() {
-            let errors: Vec<_> =
-                errors.iter().map(|error| (error.span().unwrap_or(0..0), error.message())).collect();
-            return Err(Report::input(syntax::problems(&source, &errors)));
-        }
-        let root = Node { span: table.span(), value: Value::Table(tree::entries(table.get_ref())) };
-        match root.get("format") {
-            _ if root.entries().is_empty() => {
-                let problem = Problem::of_file(&source.name, "the file is empty")
-                    .hint("a model file begins with `format = 1`");
-                Err(Report::input(vec![problem]))
-            }
-            None => {
-                let hint = match flexura_expression::nearest(
-                    "format",
-                    root.entries().iter().map(|entry| entry.key.as_str()),
-                ) {
-                    Some(near) => {
-                        format!("a model file begins with `format = 1`; is `{near}` meant to be it?")
-                    }
-                    None => "a model file begins with `format = 1`".to_string(),
-                };
-                Err(Report::input(vec![at(0..0, "", "the key `format` is missing".into()).hint(hint)]))
-            }
-            Some(entry) if !matches!(entry.node.value, Value::Number(1.0)) => {
-                let shown = source.text.get(entry.node.span.clone()).unwrap_or_default();
-                let message = format!("the format {shown} is not known");
-                let problem =
-                    at(entry.node.span.clone(), "format", message).hint("this program reads `format = 1`");
-                Err(Report::input(vec![problem]))
-            }
-            Some(_) => Ok(Self { texts: Texts { file: source, typed: None }, folder, root }),
-        }
+        let (texts, root) = include::gather(source, &path, folder, files)?;
+        Ok(Self { texts, root })
     }
 
     /// The model, with some parameters overridden: each is a name and a text such as "3", "3 N" or "2*other".
@@ -153,7 +121,7 @@ impl Document {
         overrides: &[(String, String)],
         then: impl FnOnce(Option<Model>, Context<'_>) -> T,
     ) -> T {
-        let mut context = Context::new(&self.texts, &self.folder, &self.root);
+        let mut context = Context::new(&self.texts, &self.root);
         build::parameters(&mut context, overrides);
         context.is_overridden = !overrides.is_empty();
         match repeat::expand(&context) {
@@ -194,6 +162,21 @@ impl Document {
     /// The text of the file.
     pub fn text(&self) -> &str {
         &self.texts.file.text
+    }
+
+    /// The paths of the files that it includes, directly or not, in the order in which they are read.
+    pub fn included(&self) -> impl Iterator<Item = &str> {
+        self.texts.included.iter().map(|part| part.source.name.as_str())
+    }
+
+    /// The text of the file with the tables of the files that it includes written out, so that it needs them no more:
+    /// the file's own text where it includes none.
+    pub fn whole_text(&self) -> std::borrow::Cow<'_, str> {
+        if self.texts.included.is_empty() {
+            self.text().into()
+        } else {
+            write::written_out(&self.root).into()
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet}
 use flexura_model::{visible, visible_lines};
 use std::fmt;
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Problems beyond this many are counted only.
@@ -37,26 +38,62 @@ pub(crate) struct Source {
     pub text: String,
 }
 
-/// The text of the file and, as if it stood behind it, what was typed on the command line: byte ranges beyond the file
-/// belong to that.
+/// A file that the first one includes, and where its text begins in the byte ranges.
+#[derive(Clone, Debug)]
+pub(crate) struct Included {
+    pub start: usize,
+    pub source: Arc<Source>,
+    pub folder: PathBuf,
+}
+
+/// The text of the file and, as if they stood behind it, those of the files that it includes and what was typed on the
+/// command line: byte ranges beyond the file belong to these. The byte between two texts belongs to none.
 #[derive(Clone, Debug)]
 pub(crate) struct Texts {
     pub file: Arc<Source>,
+    pub folder: PathBuf,
+    pub included: Arc<[Included]>,
     pub typed: Option<Arc<Source>>,
 }
 
+/// The text in which a byte range lies, and the range within it.
+pub(crate) fn find<'s>(
+    file: &'s Arc<Source>,
+    included: &'s [Included],
+    span: &Range<usize>,
+) -> (&'s Arc<Source>, Range<usize>) {
+    match included.iter().rfind(|part| part.start <= span.start) {
+        Some(part) => (&part.source, span.start - part.start..span.end.max(span.start) - part.start),
+        None => (file, span.clone()),
+    }
+}
+
 impl Texts {
-    /// Where the typed text begins; the byte between the two belongs to none.
+    /// Where the typed text begins.
     pub(crate) fn typed_start(&self) -> usize {
-        self.file.text.len() + 1
+        match self.included.last() {
+            Some(part) => part.start + part.source.text.len() + 1,
+            None => self.file.text.len() + 1,
+        }
     }
 
     fn find(&self, span: &Range<usize>) -> (&Arc<Source>, Range<usize>) {
         let start = self.typed_start();
         match &self.typed {
             Some(typed) if span.start >= start => (typed, span.start - start..span.end - start),
-            _ => (&self.file, span.clone()),
+            _ => find(&self.file, &self.included, span),
         }
+    }
+
+    /// Does what stands at a byte range stand in a file that is included?
+    pub(crate) fn is_included(&self, span: &Range<usize>) -> bool {
+        self.included.first().is_some_and(|part| part.start <= span.start) && span.start < self.typed_start()
+    }
+
+    /// The folder in which files are looked for that are named at a byte range.
+    pub(crate) fn folder(&self, span: &Range<usize>) -> &Path {
+        let part = self.included.iter().rfind(|part| part.start <= span.start);
+        part.filter(|_| self.is_included(span)).map_or(&self.folder, |part| &part.folder)
     }
 
     /// What stands at a byte range.
@@ -68,8 +105,9 @@ impl Texts {
     /// A problem at a byte range. What was typed has no key in the file, so none is named there.
     pub(crate) fn problem(&self, span: Range<usize>, path: &str, message: impl Into<String>) -> Problem {
         let (source, within) = self.find(&span);
-        let path = if Arc::ptr_eq(source, &self.file) { path } else { "" };
-        Problem::at(source, within, path, message)
+        let is_typed = self.typed.as_ref().is_some_and(|typed| Arc::ptr_eq(source, typed));
+        let offset = span.start - within.start;
+        Problem { offset, ..Problem::at(source, within, if is_typed { "" } else { path }, message) }
     }
 }
 
@@ -95,6 +133,8 @@ pub struct Problem {
     /// What to do about it, if that is clear.
     pub hint: Option<String>,
     pub(crate) source: Option<Arc<Source>>,
+    /// Where the text begins in the byte ranges of all texts.
+    pub(crate) offset: usize,
 }
 
 impl Problem {
@@ -125,6 +165,7 @@ impl Problem {
             message: message.into().replace("``", "of an empty name"),
             hint: None,
             source: Some(source.clone()),
+            offset: 0,
         }
     }
 
@@ -141,6 +182,7 @@ impl Problem {
             message: message.into(),
             hint: None,
             source: None,
+            offset: 0,
         }
     }
 
@@ -152,6 +194,11 @@ impl Problem {
     pub(crate) fn warning(mut self) -> Self {
         self.severity = Severity::Warning;
         self
+    }
+
+    /// Its byte range among all texts, by its two ends.
+    pub(crate) fn place(&self) -> (usize, usize) {
+        (self.offset + self.span.start, self.offset + self.span.end)
     }
 
     /// The problem as a compiler would show it, with the line it stands in.

@@ -25,8 +25,8 @@ impl Document {
     pub fn with_study(&self, kind: &str, flags: &[Flag]) -> Result<Self, Report> {
         let words = Words::new(self.texts.typed_start(), kind, flags);
         let texts = Texts {
-            file: self.texts.file.clone(),
             typed: Some(Arc::new(Source { name: SOURCE.to_string(), text: words.text.clone() })),
+            ..self.texts.clone()
         };
         let table = words.table(kind).map_err(|wrong| {
             let problem: Problem = texts.problem(wrong.span, "", wrong.message);
@@ -34,7 +34,7 @@ impl Document {
         })?;
         let mut root = self.root.clone();
         build::add_study(&mut root, kind, table);
-        Ok(Self { texts, folder: self.folder.clone(), root })
+        Ok(Self { texts, root })
     }
 }
 

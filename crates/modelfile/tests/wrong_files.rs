@@ -23,10 +23,11 @@ fn message(name: &str) -> String {
     };
     assert_eq!(report.kind(), ReportKind::Input, "{name}");
     for problem in report.problems() {
-        assert!(text.get(problem.span.clone()).is_some(), "{name}: {problem:?}");
+        let is_here = problem.file == path.display().to_string();
+        assert!(!is_here || text.get(problem.span.clone()).is_some(), "{name}: {problem:?}");
         assert!(!problem.message.is_empty() && !problem.message.contains("``"), "{name}: {problem:?}");
     }
-    report.render(false).replace(&path.display().to_string(), name)
+    report.render(false).replace(&format!("{}/", folder().display()), "")
 }
 
 #[test]

@@ -6,6 +6,14 @@ use flexura::{Options, inverse_dynamics, solve_model};
 use flexura_model::{InverseDynamicsStudy, Model, ModesStudy, MotionLaw, Sampling};
 use flexura_solution::{InverseDynamics, Modes, Solution, Status};
 
+/// What bundled models include.
+const PARTS: &[(&str, &str)] = &[
+    ("parts/flexonic_node.toml", include_str!("../../../models/parts/flexonic_node.toml")),
+    ("parts/flexonic_corner.toml", include_str!("../../../models/parts/flexonic_corner.toml")),
+    ("parts/flexonic_camera.toml", include_str!("../../../models/parts/flexonic_camera.toml")),
+    ("node_camera.toml", include_str!("../../../models/node_camera.toml")),
+];
+
 /// A model file, with what a case adds to it.
 pub struct File {
     pub(crate) document: Document,
@@ -25,8 +33,8 @@ impl File {
     /// # Errors
     /// The text is wrong.
     pub fn new(text: &str) -> Result<Self, String> {
-        let document =
-            Document::parse(&without_studies(text), "model.toml").map_err(|report| report.render(false))?;
+        let document = Document::parse_with(&without_studies(text), "model.toml", PARTS)
+            .map_err(|report| report.render(false))?;
         Ok(Self { document })
     }
 

@@ -4,6 +4,7 @@ use crate::arguments::ExamplesArguments;
 use crate::failure::Failure;
 use crate::table::Table;
 use crate::{files, screen};
+use flexura::modelfile::Document;
 use std::path::Path;
 
 macro_rules! bundled {
@@ -90,7 +91,22 @@ const MODELS: &[(&str, &str)] = &bundled![
     "thinnest_clamp",
     "bistable_design",
     "robot_tilt",
+    "node_sensor",
+    "node_corner",
+    "node_corner_together",
+    "node_corner_rear",
+    "node_narrow_corner",
+    "node_laminate",
+    "node_camera",
+    "node_camera_aim",
+    "node_camera_formula",
+    "node_camera_printed",
+    "portal_frame",
 ];
+
+/// What models share by `include`: name and text.
+const PARTS: &[(&str, &str)] =
+    &bundled!["parts/flexonic_node", "parts/flexonic_corner", "parts/flexonic_camera"];
 
 pub fn run(arguments: &ExamplesArguments) -> Result<(), Failure> {
     match &arguments.name {
@@ -125,14 +141,46 @@ fn write(name: &str, is_forced: bool) -> Result<(), Failure> {
         return Err(Failure::Input(format!("there is no bundled model `{name}`; {hint}")));
     };
     let path = format!("{name}.toml");
-    if !is_forced && Path::new(&path).symlink_metadata().is_ok() {
+    let parts = parts(&path, text)?;
+    let is_there = |path: &str| Path::new(path).symlink_metadata().is_ok();
+    // A part that another example brought is the same one.
+    let is_other = |(part, text): &&(String, &str)| {
+        is_there(part) && std::fs::read_to_string(part).is_ok_and(|present| present != *text)
+    };
+    let in_the_way = is_there(&path).then_some(path.as_str());
+    let in_the_way = in_the_way.or_else(|| parts.iter().find(is_other).map(|(part, _)| part.as_str()));
+    if let (Some(path), false) = (in_the_way, is_forced) {
         return Err(Failure::Input(format!(
             "{path} is there already and is left as it is; --force overwrites it"
         )));
     }
+    for (part, text) in &parts {
+        if let Some(folder) = Path::new(part).parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            files::make_folder(folder)?;
+        }
+        files::replace(Path::new(part), text)?;
+    }
     files::replace(Path::new(&path), text)?;
-    screen::note(&format!("wrote {path}; try: flexura solve {path}"));
+    let with = match parts.as_slice() {
+        [] => String::new(),
+        parts => {
+            let names: Vec<&str> = parts.iter().map(|(part, _)| part.as_str()).collect();
+            format!(" with {}, which it includes", names.join(" and "))
+        }
+    };
+    screen::note(&format!("wrote {path}{with}; try: flexura solve {path}"));
     Ok(())
+}
+
+/// The bundled files that a bundled model includes, with their paths.
+fn parts(path: &str, text: &str) -> Result<Vec<(String, &'static str)>, Failure> {
+    let files: Vec<(String, &'static str)> =
+        MODELS.iter().chain(PARTS).map(|(name, text)| (format!("{name}.toml"), *text)).collect();
+    let held: Vec<(&str, &str)> = files.iter().map(|(path, text)| (path.as_str(), *text)).collect();
+    let document =
+        Document::parse_with(text, path, &held).map_err(|report| Failure::Input(report.render(false)))?;
+    let included: Vec<&str> = document.included().collect();
+    Ok(files.into_iter().filter(|(path, _)| included.contains(&path.as_str())).collect())
 }
 
 #[cfg(test)]
@@ -152,6 +200,14 @@ mod tests {
         on_disk.sort();
         bundled.sort();
         assert_eq!(bundled, on_disk);
+    }
+
+    #[test]
+    fn every_bundled_model_finds_the_parts_that_it_includes() {
+        for (name, text) in MODELS {
+            let parts = parts(&format!("{name}.toml"), text).unwrap_or_else(|_| panic!("{name}"));
+            assert_eq!(parts.is_empty(), !text.lines().any(|line| line.starts_with("include")), "{name}");
+        }
     }
 
     #[test]

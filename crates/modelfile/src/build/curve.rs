@@ -287,7 +287,8 @@ pub(super) fn from_file<const N: usize>(
 
 /// The text of a file beside the model file, which the key at hand names.
 pub(super) fn read(reader: &Reader<'_, '_>, key: &str, file: &str) -> Read<String> {
-    let path = reader.context.folder.join(file);
+    let place = reader.entry(key).map_or(0..0, |(entry, _)| entry.node.span.clone());
+    let path = reader.context.texts.folder(&place).join(file);
     let cannot = |why: String| {
         let hint = "the path is relative to the folder of the model file";
         reader.wrong_at(key, format!("cannot read `{file}`: {why}"), hint)

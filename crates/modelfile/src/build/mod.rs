@@ -241,6 +241,8 @@ fn unused(context: &Context<'_>) -> Vec<Problem> {
         let idle: Vec<&Entry> = entries
             .iter()
             .filter(|entry| !context.is_used(word, &entry.key))
+            // A part that several models share offers more than each of them needs.
+            .filter(|entry| !context.texts.is_included(&entry.key_span))
             .filter(|entry| {
                 !context.is_copy(&format!("{word}.{}", entry.key)) || told.insert(entry.key_span.start)
             })

@@ -50,6 +50,14 @@ pub(crate) static FILE: Table = table(
         key("format", Shape::Version, Required, "1", "The version of the format."),
         key("name", Shape::Text, Default("\"\""), "\"sensor attachment\"", "A title for people."),
         key(
+            "include",
+            Shape::Texts,
+            Default("nothing"),
+            "[\"parts/materials.toml\"]",
+            "Model files whose tables become tables of this one; paths as seen from the folder of the file that names them. Each \
+             begins with `format = 1`, may include others, and is taken once. Nothing may be given twice.",
+        ),
+        key(
             "gravity",
             Shape::Vector(D::ACCELERATION),
             Default("none"),

@@ -17,6 +17,7 @@ use flexura_expression::Formula;
 use flexura_model::{At, Issue, Model, Rule};
 use flexura_spatial::Vector3;
 use std::collections::BTreeMap;
+pub(crate) use tree::written_out;
 use tree::{Table, Value};
 
 /// The model as the text of a file.

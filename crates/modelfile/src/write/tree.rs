@@ -1,5 +1,6 @@
 //! Values of a file as text.
 
+use crate::tree::{Entry, Node, Value as Read};
 use std::fmt::Write;
 
 /// A value behind a key.
@@ -68,6 +69,39 @@ impl Value {
                 text.push_str(if table.0.is_empty() { "}" } else { " }" });
             }
         }
+    }
+}
+
+/// A tree as a text that reads back as the same tree.
+pub(crate) fn written_out(root: &Node) -> String {
+    let is_table = |entry: &&Entry| matches!(entry.node.value, Read::Table(_));
+    let (tables, own): (Vec<&Entry>, Vec<&Entry>) = root.entries().iter().partition(is_table);
+    let mut text = table_of(own).lines();
+    for entry in tables {
+        let (inner, own): (Vec<&Entry>, Vec<&Entry>) = entry.node.entries().iter().partition(is_table);
+        if !own.is_empty() || inner.is_empty() {
+            text.push_str(&table_of(own).section(&entry.key, ""));
+        }
+        for named in inner {
+            text.push_str(&table_of(named.node.entries().iter()).section(&entry.key, &named.key));
+        }
+    }
+    text
+}
+
+fn table_of<'e>(entries: impl IntoIterator<Item = &'e Entry>) -> Table {
+    Table(entries.into_iter().map(|entry| (entry.key.clone(), value_of(&entry.node))).collect())
+}
+
+fn value_of(node: &Node) -> Value {
+    match &node.value {
+        Read::Text(text) => Value::text(text),
+        Read::Number(value) => Value::number(*value),
+        Read::Flag(flag) => Value::flag(*flag),
+        // A date means nothing in a model file; a text is refused in the same way.
+        Read::Date => Value::text("a date"),
+        Read::List(list) => Value::List(list.iter().map(value_of).collect()),
+        Read::Table(entries) => Value::Table(table_of(entries)),
     }
 }
 

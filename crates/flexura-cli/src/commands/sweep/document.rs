@@ -77,7 +77,7 @@ impl<'a> SweepDocument<'a> {
                 .iter()
                 .map(|sample| SampleDocument::new(table, sample, beside))
                 .collect::<Result<_, _>>()?,
-            scene: scene.map(|scene| SceneDocument { text: Some(file.text().to_owned()), ..scene }),
+            scene: scene.map(|scene| SceneDocument { text: Some(file.whole_text().into_owned()), ..scene }),
         })
     }
 }
