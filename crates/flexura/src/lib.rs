@@ -189,9 +189,9 @@ pub use flexura_solution as solution;
 pub use flexura_spatial as spatial;
 pub use flexura_study::{
     Census, Equilibrium, Evaluation, Evaluator, Family, Interrupt, Law, ModelFamily, MotionProgress, Options,
-    Outcome, Prepared, ProblemError, Progress, SensitivityError, TraceProgress, buckle, buckle_family, check,
-    equilibria, inverse_dynamics, inverse_dynamics_family, modes, modes_along, solve, solve_family,
-    solve_model, trace, trace_family,
+    Outcome, Prepared, ProblemError, Progress, SensitivityError, StateSpaceRequest, TraceProgress, buckle,
+    buckle_family, check, equilibria, inverse_dynamics, inverse_dynamics_family, modes, modes_along, solve,
+    solve_family, solve_model, state_space, trace, trace_family,
 };
 pub use solve_file::{Error, Solved, solve_file};
 pub use trace_file::{Buckled, Traced, buckle_file, study_named, trace_file};

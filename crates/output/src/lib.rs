@@ -18,6 +18,7 @@ mod modes;
 mod motion;
 mod read;
 mod scene;
+mod space;
 mod svg;
 mod thin;
 mod trace;
@@ -54,9 +55,10 @@ pub use scene::{
     HoldScene, JointScene, LoadDocument, LoadScene, MassScene, PlaceDocument, SceneDocument, SpringScene,
     TubeScene, TubesScene, UnitsDocument, WrapScene, loads, scene, scene_beside,
 };
+pub use space::{SignalDocument, StateSpaceDocument, state_space_csv, state_space_document, state_space_mat};
 pub use svg::{
     SampleColumn, SweepView, diagram_svg, fit_svg, formula_svg, frequencies_svg, modes_svg, motion_svg,
-    shape_svg, shapes_svg, stacked, sweep_svg, vibration_svg,
+    response_svg, shape_svg, shapes_svg, stacked, sweep_svg, vibration_svg,
 };
 pub use thin::shape_of;
 pub use trace::{

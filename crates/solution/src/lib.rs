@@ -8,6 +8,7 @@ mod design;
 mod fit;
 mod modes;
 mod motion;
+mod space;
 mod trace;
 mod warnings;
 mod words;
@@ -20,6 +21,7 @@ pub use fit::{
 };
 pub use modes::{Followed, Mode, ModeKind, Modes, ModesAlong, Shares};
 pub use motion::{BodyMotion, Instant, InverseDynamics, JointMotion, MotionWork, Rates};
+pub use space::{Signal, StateSpace};
 pub use trace::{
     Branch, BranchEnd, BranchOrigin, Buckling, BucklingMode, CriticalCurve, Crossing, Direction, PointKind,
     Trace, TracePoint, TraceWork,

@@ -18,7 +18,7 @@ pub use ending::Ending;
 pub use evaluate::{Evaluation, Evaluator};
 pub use family::{Family, ModelFamily};
 pub use flexura_equilibrium::{Census, Equilibrium, Interrupt, Law, ProblemError};
-pub use modes::{modes, modes_along};
+pub use modes::{StateSpaceRequest, modes, modes_along, state_space};
 pub use motion::{MotionProgress, inverse_dynamics, inverse_dynamics_family};
 pub use search::equilibria;
 pub use sensitivity::SensitivityError;

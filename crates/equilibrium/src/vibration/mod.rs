@@ -22,6 +22,7 @@
 mod assemble;
 mod cut;
 mod damping;
+mod drive;
 mod element;
 mod mass;
 mod rule;

@@ -59,10 +59,15 @@ impl Equilibrium {
         if square == 0.0 || whole <= 0.0 { 0.0 } else { missed / (square.abs() * whole) }
     }
 
-    /// A vector of one pencil as one of another, of the same mechanism with other elements: its motions, without wrenches.
+    /// A vector of one pencil as one of another, of the same mechanism with other elements: its motions, without wrenches;
+    /// zero where the two are not cut at the same places.
     pub fn carried(&self, from: &Vibration, x: &[f64], to: &Vibration) -> Vec<f64> {
         let mut out = vec![0.0; to.size];
-        let both = from.columns.iter().zip(&to.columns).take(from.layout.interface.min(to.layout.interface));
+        let is_alike = from.layout.interface == to.layout.interface && from.spans.len() == to.spans.len();
+        if !is_alike {
+            return out;
+        }
+        let both = from.columns.iter().zip(&to.columns).take(to.layout.interface);
         for (from, to) in both {
             if let (Some(from), Some(to)) = (from, to) {
                 out[*to] = x[*from];

@@ -8,9 +8,11 @@ mod along;
 mod damped;
 mod pencil;
 mod reading;
+mod space;
 mod unsymmetric;
 
 pub use along::modes_along;
+pub use space::{StateSpaceRequest, state_space};
 
 use crate::{Options, Prepared, ProblemError, Progress};
 use flexura_equilibrium::{Detail, Equilibrium, Footing, Vibration};
@@ -191,6 +193,7 @@ fn spectrum(
         before = Some(look);
     }
     let residual = if near.is_some() { FAIR } else { SHARP };
+    let first = near.and_then(|near| ORDERS.iter().position(|order| *order == near.order)).unwrap_or(0);
     for (round, &order) in ORDERS[first..].iter().chain(&ORDERS).enumerate() {
         detail.order = order;
         let (mut start, source) = match (&before, near) {
