@@ -20,6 +20,7 @@ from types import ModuleType
 from . import errors
 from ._native import __version__, schema
 from ._references import Formula, Handle, clamp, hold, pin, place, prismatic, revolute
+from .control import StateSpace
 from .errors import ConvergenceError, FlexuraError, ModelError, Problem, StudyError
 from .fitting import Fit, ResponseFormula
 from .model import Check, Model, Quantity, load, loads
@@ -55,6 +56,7 @@ __all__ = [
     "Record",
     "ResponseFormula",
     "Result",
+    "StateSpace",
     "Step",
     "Stepper",
     "Study",

@@ -38,6 +38,16 @@ class Mechanism:
     def sample(
         self, values: list[tuple[str, float | str]], tolerance: float, outputs: list[int]
     ) -> tuple[str, str | None, list[float] | None]: ...
+    def state_space(
+        self,
+        values: list[tuple[str, float | str]],
+        tolerance: float,
+        modes: tuple[int, bool],
+        inputs: list[str],
+        outputs: list[str],
+        damping_ratio: float,
+        residual_vectors: int,
+    ) -> tuple[str, bytes, str]: ...
     def run(self, name: str, values: list[tuple[str, float | str]], tolerance: float, shapes: int) -> Study: ...
 
 @final

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self, overload
 
 from . import _native, _values
 from ._references import Handle, text_of
+from .control import StateSpace
 from .errors import ConvergenceError, ModelError, StudyError
 from .result import Result
 from .fitting import Fit, ResponseFormula
@@ -457,6 +458,45 @@ class Model(Tables):
         study = {"kind": "modes", "count": count, "at_rest": at_rest, **keys}
         found = self.run(study, parameters, tolerance=tolerance, check=check)
         assert isinstance(found, Modes)
+        return found
+
+    def state_space(
+        self,
+        count: int = 6,
+        /,
+        *,
+        inputs: Sequence[str] = (),
+        outputs: Sequence[str] = (),
+        damping_ratio: float = 0.0,
+        residual_vectors: int = 0,
+        at_rest: bool = False,
+        parameters: Mapping[str, Any] | None = None,
+        tolerance: float = 1e-8,
+        **values: Any,
+    ) -> StateSpace:
+        """The linear model about the equilibrium with its ``count`` lowest modes, corrected for what the others yield statically.
+
+        Args:
+            inputs: ``load.NAME``, ``load.NAME.force.x``, ``load.NAME.moment.z``, ``ground.acceleration.y``; else all loads.
+            outputs: ``NAME``, ``NAME.x``, ``NAME.velocity``, ``NAME.x.acceleration``; else all outputs.
+            damping_ratio: damping of every mode beside the model's own, as a part of critical damping.
+            residual_vectors: for each input, where static correction is not enough.
+
+        Raises:
+            ConvergenceError: there is no equilibrium.
+        """
+        text, mat, picture = self._mechanism.state_space(
+            self._all(parameters, values),
+            tolerance,
+            (count, at_rest),
+            [str(name) for name in inputs],
+            [str(name) for name in outputs],
+            damping_ratio,
+            residual_vectors,
+        )
+        found = StateSpace(self.with_values(parameters, **values), text, mat, picture)
+        if found.document["status"] != "converged":
+            raise ConvergenceError(f"state space: {found.document['status']}: {found.document.get('reason')}", None)
         return found
 
     def frequencies(

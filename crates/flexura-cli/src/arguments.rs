@@ -294,6 +294,26 @@ pub struct ModesArguments {
     /// Write result.json, modes.csv, shapes.svg and report.html into this folder; along a path frequencies.csv and frequencies.svg
     #[arg(long, short = 'o', value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// About the equilibrium of an earlier result (result.json) of the same beams, bodies and joints, or the one next to it
+    #[arg(long, value_name = "RESULT", conflicts_with_all = ["at_rest", "parameter"])]
+    pub from: Option<PathBuf>,
+    /// Write the linear model about the equilibrium for control: A, B, C, D as .json, .csv or .mat, or its frequency response as .svg;
+    /// may be repeated
+    #[arg(long, value_name = "FILE", conflicts_with = "parameter")]
+    pub state_space: Vec<PathBuf>,
+    /// An input of it: load.NAME, load.NAME.force.x, load.NAME.moment.z or ground.acceleration.y; may be repeated [default: the
+    /// components of all loads]
+    #[arg(long, value_name = "I", requires = "state_space")]
+    pub input: Vec<String>,
+    /// An output of it: NAME, NAME.x, NAME.velocity or NAME.x.acceleration; may be repeated [default: all outputs]
+    #[arg(long, value_name = "O", requires = "state_space")]
+    pub measure: Vec<String>,
+    /// Damping of every mode in it beside the model's own, as a part of critical damping [default: 0]
+    #[arg(long, value_name = "Z", requires = "state_space", allow_negative_numbers = true)]
+    pub damping_ratio: Option<f64>,
+    /// Residual vectors for each of its inputs, which join the modes where static correction is not enough [default: 0]
+    #[arg(long, value_name = "N", requires = "state_space")]
+    pub residual_vectors: Option<usize>,
     /// Wanted accuracy of the equilibrium, relative to the beam's length, 1 rad, EI/L² and EI/L [default: 1e-8]
     #[arg(long, value_name = "T", value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,

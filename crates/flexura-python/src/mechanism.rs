@@ -4,11 +4,14 @@ use crate::errors::{Place, Wrong, dictionary, of_report, study};
 use crate::guard::released;
 use crate::solved::{Request, Solved};
 use crate::studies::Study;
-use flexura::model::Model;
+use flexura::model::{Model, ModesStudy};
 use flexura::modelfile::{Document, Report};
+use flexura::output::{response_svg, state_space_document, state_space_mat, to_json};
 use flexura::post::each_output;
 use flexura::solution::Status;
-use flexura::{Interrupt, Options, equilibria, place, solve_model, study_named};
+use flexura::{
+    Interrupt, Options, StateSpaceRequest, equilibria, place, solve_model, state_space, study_named,
+};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::sync::Arc;
@@ -177,6 +180,34 @@ impl Mechanism {
     ) -> PyResult<Sample> {
         let given = self.given(py, values)?;
         released(py, |interrupt| self.one_sample(&given, tolerance, &outputs, interrupt))
+    }
+
+    /// The linear model about an equilibrium as JSON, and the same as the text of a MATLAB file.
+    #[allow(clippy::too_many_arguments, reason = "the options of a linear model, each given by the package")]
+    fn state_space(
+        &self,
+        py: Python<'_>,
+        values: Values,
+        tolerance: f64,
+        (count, at_rest): (usize, bool),
+        inputs: Vec<String>,
+        outputs: Vec<String>,
+        damping_ratio: f64,
+        residual_vectors: usize,
+    ) -> PyResult<(String, Vec<u8>, String)> {
+        let given = self.given(py, values)?;
+        let made = released(py, |interrupt| -> Result<_, Wrong> {
+            let options = Options { tolerance, interrupt: interrupt.clone(), ..Options::default() };
+            let model = self.at(&given)?;
+            let request = StateSpaceRequest { inputs, outputs, damping_ratio, residual_vectors };
+            let study = ModesStudy { count, at_rest, path: None };
+            let space = state_space(&model, &study, &request, &options, &mut |_| {})?;
+            let written = state_space_document(&model, &space)
+                .and_then(|document| Ok((to_json(&document)?, state_space_mat(&space)?)));
+            let (text, mat) = written.map_err(|error| Wrong::Told(error.to_string()))?;
+            Ok((text, mat, response_svg(&model, &space)))
+        })?;
+        made.map_err(|wrong| wrong.raise(py, &self.file, self.place))
     }
 
     /// A study of the file.

@@ -108,7 +108,9 @@ impl Study {
                 });
                 let document = document.and_then(|document| to_json(&document)).ok();
                 let mut files = vec![("shapes.svg", vibration_svg(&vibrated.model, &vibrated.modes))];
-                files.extend(vibration_csv(&vibrated.modes).map(|table| ("modes.csv", table)));
+                files.extend(
+                    vibration_csv(&vibrated.model, &vibrated.modes).map(|table| ("modes.csv", table)),
+                );
                 let ended = Self::ended("modes", solution.status, solution.reason.clone());
                 Self { document, files: named(files), ..ended }
             }

@@ -14,6 +14,7 @@ pub mod elliptic;
 pub mod exoskeleton;
 pub mod foundation;
 pub mod four_bar;
+pub mod frames;
 pub mod helix;
 pub mod ivp;
 pub mod lateral;

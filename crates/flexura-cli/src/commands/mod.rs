@@ -14,6 +14,7 @@ pub mod optimise;
 pub mod run;
 pub mod schema;
 pub mod solve;
+mod state_space;
 pub mod sweep;
 pub mod trace;
 pub mod view;

@@ -1,6 +1,6 @@
 //! `flexura modes FILE`
 
-use super::{file_failure, study_failure};
+use super::{earlier, file_failure, study_failure};
 use crate::answer::{Answer, StudyDocument, Task, unwritable};
 use crate::arguments::ModesArguments;
 use crate::failure::Failure;
@@ -18,9 +18,18 @@ pub fn run(arguments: &ModesArguments) -> Result<(), Failure> {
     let file = Document::read(&arguments.model.file).map_err(|report| file_failure(&report))?;
     let file = file.with_study("modes", &flags(arguments)).map_err(|report| file_failure(&report))?;
     let places = (arguments.output.as_deref(), &arguments.shown);
-    let task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
+    let mut task = Task::new(&arguments.model, file, places, arguments.tolerance)?;
+    if let Some(path) = &arguments.from {
+        task.options.from = Some(Box::new(earlier::read(path, &task.model)?));
+    }
     match task.model.studies.last().map(|study| (&study.name, &study.kind)) {
-        Some((name, StudyKind::Modes(modes))) => task.deliver(study(&task, name, modes)?),
+        Some((name, StudyKind::Modes(modes))) => {
+            let answer = study(&task, name, modes)?;
+            if !arguments.state_space.is_empty() && answer.failure.is_none() {
+                super::state_space::write(&task, name, modes, arguments)?;
+            }
+            task.deliver(answer)
+        }
         _ => Err(Failure::Machine(
             "the flags made no study; this is a bug in flexura, please report it".into(),
         )),
@@ -54,7 +63,7 @@ pub fn study(task: &Task, name: &str, study: &ModesStudy) -> Result<Answer, Fail
     if task.wants_document() {
         document = Some(StudyDocument::Modes(Box::new(vibrated.document().map_err(refused)?)));
         if task.wants_files() {
-            files.push(("modes.csv", vibration_csv(modes).map_err(refused)?));
+            files.push(("modes.csv", vibration_csv(model, modes).map_err(refused)?));
             files.push(("shapes.svg", vibration_svg(model, modes)));
         }
     }

@@ -86,11 +86,11 @@ fn mode_document(model: &Model, mode: &Mode) -> Result<VibrationDocument, Output
     })
 }
 
-/// `modes.csv`: a row for every mode.
+/// `modes.csv`: a row for every mode; its nodes as the beam's name and arc length.
 ///
 /// # Errors
 /// As [`modes_document`].
-pub fn vibration_csv(modes: &Modes) -> Result<String, OutputError> {
+pub fn vibration_csv(model: &Model, modes: &Modes) -> Result<String, OutputError> {
     let masses = ["x", "y", "z"].map(|axis| format!("effective_mass_{axis} [kg]"));
     let inertias = ["x", "y", "z"].map(|axis| format!("effective_inertia_{axis} [kg*m^2]"));
     let head = [
@@ -104,6 +104,7 @@ pub fn vibration_csv(modes: &Modes) -> Result<String, OutputError> {
     ];
     let mut heading: Vec<String> = head.map(str::to_owned).to_vec();
     heading.extend(masses.into_iter().chain(inertias));
+    heading.push("nodes [m]".to_owned());
     let mut text = line(heading);
     for (i, mode) in modes.modes.iter().enumerate() {
         let field = |part: &str| format!("modes[{i}].{part}");
@@ -126,6 +127,10 @@ pub fn vibration_csv(modes: &Modes) -> Result<String, OutputError> {
                 None => String::new(),
             });
         }
+        let beams = model.beams.iter().zip(&mode.nodes);
+        let places = beams.flat_map(|(beam, places)| places.iter().map(move |s| (&beam.name, *s)));
+        let told = places.map(|(name, s)| Ok(format!("{name} {}", cell(s, || field("nodes"))?)));
+        row.push(told.collect::<Result<Vec<_>, OutputError>>()?.join("; "));
         text += &line(row);
     }
     Ok(text)

@@ -197,10 +197,8 @@ impl<'p> Builder<'p> {
         let mut layer = self.drives.clone();
         for _ in 0..count {
             for b in &mut layer {
-                let x = self.solved(b);
-                *b = Self::product(&self.vibration.inertia, &x);
-                let before = dot(&x, b).max(0.0).sqrt();
-                let mut x = x;
+                let mut x = self.solved(b);
+                let before = dot(&x, &Self::product(&self.vibration.inertia, &x)).max(0.0).sqrt();
                 for _ in 0..2 {
                     let heavy = Self::product(&self.vibration.inertia, &x);
                     for known in self.basis.vectors.iter().chain(&fresh) {
@@ -211,7 +209,11 @@ impl<'p> Builder<'p> {
                 let size = dot(&x, &Self::product(&self.vibration.inertia, &x)).max(0.0).sqrt();
                 if size > NEW * before {
                     x.iter_mut().for_each(|x| *x /= size);
+                    // The next is made of what is new alone: the modes would drown it.
+                    *b = Self::product(&self.vibration.inertia, &x);
                     fresh.push(x);
+                } else {
+                    b.fill(0.0);
                 }
             }
         }
