@@ -57,7 +57,7 @@ impl Equilibrium {
         });
         for (i, beam) in self.model.beams.iter().enumerate() {
             let Some(strip) = self.strip(beam) else { continue };
-            let carried = self.carried(i);
+            let carried = self.carried_by(i);
             let is_twisted = carried.torque > TWISTED * carried.moment && carried.torque > 0.0;
             let mu =
                 4.0 * (3.0 * strip.shear / strip.young).sqrt() * self.lowered.beams[i].length / strip.width;
@@ -115,7 +115,7 @@ impl Equilibrium {
     }
 
     /// At the ends of its segments.
-    fn carried(&self, beam: usize) -> Carried {
+    fn carried_by(&self, beam: usize) -> Carried {
         let scale = self.lowered.scale;
         let mut carried = Carried::default();
         for (k, _) in self.lowered.spans.iter().enumerate().filter(|(_, span)| span.beam == beam) {
