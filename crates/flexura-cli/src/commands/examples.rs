@@ -106,6 +106,7 @@ const MODELS: &[(&str, &str)] = &bundled![
     "node_camera_formula",
     "node_camera_printed",
     "portal_frame",
+    "shoulder_joint",
 ];
 
 /// What models share by `include`: name and text.

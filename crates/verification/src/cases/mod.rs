@@ -15,6 +15,7 @@ mod follower;
 mod foundation;
 mod four_bar;
 mod frame;
+mod half_ring;
 mod helix_wrench;
 mod joints;
 mod lee_frame;
@@ -23,7 +24,9 @@ mod modes;
 mod modes_curved;
 mod modes_of_mechanisms;
 mod motion;
+mod node;
 mod pushed_strip;
+pub(crate) mod recipe;
 mod robot;
 mod roll_up;
 mod rolling;
@@ -51,7 +54,9 @@ pub fn cases() -> Vec<Case> {
         &curves::CASES,
         &helix_wrench::CASES,
         &spring::CASES,
+        &half_ring::CASES,
         &strip::CASES,
+        &recipe::CASES,
         &taper::CASES,
         &clamped_clamped::CASES,
         &four_bar::CASES,
@@ -69,6 +74,7 @@ pub fn cases() -> Vec<Case> {
         &foundation::CASES,
         &pushed_strip::CASES,
         &slide_law::CASES,
+        &node::CASES,
         &torsion::CASES,
         &sideways::CASES,
         &snaps::CASES,

@@ -108,7 +108,15 @@ impl Spring {
     /// displacement, with the even and cubic parts of the response taken out.
     fn measured_flexibility(&self) -> Result<f64, String> {
         let w = self.unit_wrench();
-        let (force, moment) = (Vector3::new(w[0], w[1], w[2]), Vector3::new(w[3], w[4], w[5]));
+        self.flexibility(Vector3::new(w[0], w[1], w[2]), Vector3::new(w[3], w[4], w[5]))
+    }
+
+    /// The same of a force at the wire's end.
+    fn force_flexibility(&self) -> Result<f64, String> {
+        self.flexibility(self.axis, Vector3::zeros())
+    }
+
+    fn flexibility(&self, force: Vector3<f64>, moment: Vector3<f64>) -> Result<f64, String> {
         let odd = |load: f64| -> Result<f64, String> {
             let mut sum = 0.0;
             for sign in [1.0, -1.0] {
@@ -142,6 +150,16 @@ fn small() -> Result<Vec<Row>, String> {
             1e-6,
         ));
         let love = spring.closed.axial_flexibility();
+        if pitch == PITCHES[0].0 {
+            // The force alone at the wire's end, along the coil's axis, without the moment that shifts it there.
+            let force = Vector6::new(w[0], w[1], w[2], 0.0, 0.0, 0.0);
+            let ours = spring.force_flexibility()?;
+            let name = |what: &str| format!("axial flexibility, mm/N, {what}, {name}");
+            let castigliano = force.dot(&(flexibility * force));
+            rows.push(Row::absolute(name("force at the wire's end"), 1e3 * castigliano, 1e3 * ours, 1e-7));
+            rows.push(Row::absolute(name("the same by its value"), 1.522_523_638, 1e3 * ours, 1e-7));
+            rows.push(Row::absolute(name("force through the axis"), 0.793_110_676, 1e3 * measured, 1e-7));
+        }
         rows.push(Row::relative(format!("stiffness (Love), N/m, {name}"), 1.0 / love, 1.0 / measured, 1e-6));
     }
     Ok(rows)
