@@ -12,12 +12,13 @@ const FLOORS: &[&[&str]] = &[
     &["study"],
     &["output", "fitting", "design"],
     &["report", "raster"],
-    &["flexura"],
+    &["flexura", "testkit"],
+    &["verification"],
     &["flexura-cli", "live", "flexura-python", "flexura-c"],
 ];
 
 /// Rooms that may use everything and that nothing may use except in tests.
-const BESIDE: &[&str] = &["testkit", "verification", "campaign"];
+const BESIDE: &[&str] = &["campaign"];
 
 /// What gives results a meaning never looks at how they were found, and what solves knows no files.
 const NEVER: &[(&str, &[&str])] = &[
@@ -26,6 +27,11 @@ const NEVER: &[(&str, &[&str])] = &[
     ("study", &["modelfile"]),
     ("fitting", &["modelfile", "mechanics", "equilibrium"]),
     ("design", &["modelfile"]),
+    // The second method shares nothing with the solver, and only the command shows the two beside each other.
+    ("testkit", &["modelfile", "nonlinear", "mechanics", "equilibrium", "study"]),
+    ("live", &["testkit", "verification"]),
+    ("flexura-python", &["testkit", "verification"]),
+    ("flexura-c", &["testkit", "verification"]),
 ];
 
 fn floor(room: &str) -> Option<usize> {

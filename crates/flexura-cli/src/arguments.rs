@@ -42,6 +42,8 @@ pub enum Command {
     Examples(ExamplesArguments),
     /// List the library of materials, with their sources, or tell one of them
     Materials(MaterialsArguments),
+    /// Compare answers with what is known: closed forms, published numbers, other methods
+    Verify(VerifyArguments),
     /// Write the page that shows a result, and open it in the browser
     View(ViewArguments),
     /// Print the JSON Schema of model files, for editors
@@ -380,6 +382,21 @@ pub struct MaterialsArguments {
     /// As JSON, SI units
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Args)]
+pub struct VerifyArguments {
+    /// Parts of the names of cases, each shown with all that it compares [default: all cases, a line for each]
+    pub names: Vec<String>,
+    /// List the cases and where their references come from, and run none
+    #[arg(long)]
+    pub list: bool,
+    /// Print a document (JSON) on standard output and nothing else
+    #[arg(long)]
+    pub json: bool,
+    /// Print failures only
+    #[arg(long, short)]
+    pub quiet: bool,
 }
 
 #[derive(Args)]

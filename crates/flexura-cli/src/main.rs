@@ -54,6 +54,7 @@ fn main() -> ExitCode {
         Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Examples(arguments) => commands::examples::run(&arguments),
+        Command::Verify(arguments) => commands::verify::run(&arguments),
         Command::View(arguments) => commands::view::run(&arguments),
         Command::Materials(arguments) => commands::materials::run(&arguments),
         Command::Schema => commands::schema::run(),

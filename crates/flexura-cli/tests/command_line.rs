@@ -54,6 +54,45 @@ fn a_file_that_is_not_there_leaves_standard_output_empty() {
 }
 
 #[test]
+fn verify_compares_the_cases_that_are_named() {
+    let output = run(&["verify", "elastica_push", "--quiet", "--json"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let document: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(document["status"], "passed");
+    let rows = document["cases"][0]["rows"].as_array().unwrap();
+    assert!(!rows.is_empty());
+    for row in rows {
+        assert!(row["difference"].as_f64().unwrap() <= row["allowed"].as_f64().unwrap());
+        assert_eq!(row["status"], "passed");
+    }
+    let output = run(&["verify", "elastica_push"]);
+    assert!(stdout(&output).contains("1 of 1 cases passed"), "{}", stdout(&output));
+}
+
+#[test]
+fn verify_meets_an_unknown_case_with_the_nearest_one() {
+    let output = run(&["verify", "elastika"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("elastica"), "{}", stderr(&output));
+}
+
+#[test]
+fn an_example_comes_with_the_parts_that_it_includes() {
+    let folder = folder("an_example_comes_with_the_parts_that_it_includes");
+    let here = |arguments: &[&str]| flexura().args(arguments).current_dir(&folder).output().unwrap();
+    let output = here(&["examples", "node_camera_aim"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    for file in
+        ["node_camera_aim.toml", "node_camera.toml", "parts/flexonic_camera.toml", "parts/flexonic_node.toml"]
+    {
+        assert!(folder.join(file).is_file(), "{file}");
+    }
+    assert_eq!(code(&here(&["solve", "node_camera_aim.toml", "--quiet"])), 0);
+    // Another one shares parts with it.
+    assert_eq!(code(&here(&["examples", "node_corner"])), 0);
+}
+
+#[test]
 fn examples_are_listed_with_their_titles() {
     let output = run(&["examples"]);
     assert_eq!(code(&output), 0);

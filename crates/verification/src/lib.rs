@@ -12,10 +12,14 @@ mod case;
 mod cases;
 mod file;
 mod measure;
+mod outcome;
 mod path;
 mod table;
+mod thesis;
 
 pub use case::{Case, Estimate, Row, Run, Weigh};
 pub use cases::{cases, find};
 pub use measure::solve;
+pub use outcome::{Outcome, outcomes};
 pub use table::{is_current, markdown};
+pub use thesis::thesis;

@@ -1,8 +1,7 @@
 //! `docs/verification.md`.
 
-use crate::{Case, Row, cases};
+use crate::{Outcome, Row, cases, outcomes};
 use std::fmt::Write;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 const HEAD: &str = "\
 # Verification
@@ -75,7 +74,8 @@ pub fn markdown() -> String {
     let mut text = HEAD.to_string();
     text.push_str("| case | what | reference | needed | largest difference |\n|---|---|---|---|---|\n");
     let cases = cases();
-    for (case, found) in cases.iter().zip(summaries(&cases)) {
+    for outcome in outcomes(&cases, &|_| {}) {
+        let (case, found) = (outcome.case, summary(&outcome));
         let mark = if case.closed_form.is_some() { " *" } else { "" };
         // Writing to a string cannot fail.
         let _ = writeln!(
@@ -88,30 +88,9 @@ pub fn markdown() -> String {
     text
 }
 
-/// All summaries, on all cores.
-fn summaries(cases: &[Case]) -> Vec<String> {
-    let next = AtomicUsize::new(0);
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let work = || {
-        let mut done = Vec::new();
-        loop {
-            let position = next.fetch_add(1, Ordering::Relaxed);
-            let Some(case) = cases.get(position) else { return done };
-            done.push((position, summary(case)));
-        }
-    };
-    let mut all = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
-        // A case that panics leaves its line out, which no page survives.
-        workers.into_iter().flat_map(|worker| worker.join().unwrap_or_default()).collect::<Vec<_>>()
-    });
-    all.sort_by_key(|(position, _)| *position);
-    all.into_iter().map(|(_, text)| text).collect()
-}
-
 /// The bounds of the rows, those of one tolerance together.
-fn summary(case: &Case) -> String {
-    let rows = match (case.run)() {
+fn summary(outcome: &Outcome) -> String {
+    let rows = match &outcome.rows {
         Ok(rows) => rows,
         Err(error) => return format!("failed: {error}"),
     };

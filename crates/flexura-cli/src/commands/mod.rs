@@ -17,6 +17,7 @@ pub mod solve;
 mod state_space;
 pub mod sweep;
 pub mod trace;
+pub mod verify;
 pub mod view;
 
 use crate::failure::Failure;
