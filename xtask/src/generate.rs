@@ -28,6 +28,9 @@ const PICTURES: &[(&str, &str, &[&str])] = &[
     ("knee_leg", "flexion/motion.svg", &["run", "models/knee_leg.toml", "flexion"]),
     ("lee_frame", "path/diagram.svg", &["run", "models/lee_frame.toml", "path"]),
     ("lee_frame_shapes", "path/shapes.svg", &["run", "models/lee_frame.toml", "path"]),
+    ("node_camera", "shape.svg", &["solve", "models/node_camera.toml"]),
+    ("node_corner", "over/shapes.svg", &["run", "models/node_corner.toml", "over", "--set", "fall=0"]),
+    ("node_narrow_corner", "over/shapes.svg", &["run", "models/node_narrow_corner.toml", "over"]),
     ("strip_on_slope", "fold/diagram.svg", &["run", "models/strip_on_slope.toml", "fold"]),
 ];
 
@@ -45,6 +48,7 @@ const VERBS: &[&str] = &[
     "sweep",
     "check",
     "examples",
+    "verify",
     "view",
     "schema",
     "completions",

@@ -64,10 +64,10 @@ impl Mechanism {
         Self::of(py, made, Place::Lines)
     }
 
-    /// The text of the file.
+    /// The text of the file, with what it includes.
     #[getter]
-    fn text(&self) -> &str {
-        self.file.text()
+    fn text(&self) -> String {
+        self.file.whole_text().into_owned()
     }
 
     /// What it is made of, with values in SI units.

@@ -18,6 +18,10 @@ fn models() -> Vec<PathBuf> {
     let list = std::fs::read_dir(root().join("models")).expect("the models are there");
     let mut paths: Vec<PathBuf> = list.filter_map(|entry| entry.ok().map(|entry| entry.path())).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
+    // A page finds no other files: those that include some come to it written out.
+    paths.retain(|path| {
+        std::fs::read_to_string(path).is_ok_and(|text| !text.lines().any(|line| line.starts_with("include")))
+    });
     paths.sort();
     paths
 }
