@@ -45,6 +45,17 @@ def test_the_text_of_a_file_is_kept_until_it_is_changed() -> None:
     assert "extra" in model.to_toml() and fx.loads(model.to_toml(), folder=MODELS) == model
 
 
+def test_included_files_are_taken_into_the_model(tmp_path: Path) -> None:
+    (tmp_path / "steel.toml").write_text('format = 1\n[material.steel]\nyoung = "200 GPa"\npoisson = 0.3\n')
+    (tmp_path / "rod.toml").write_text(
+        'format = 1\ninclude = "steel.toml"\n[section.rod]\nshape = "circle"\ndiameter = "1 mm"\n'
+        '[beam.rod]\nmaterial = "steel"\nsection = "rod"\nlength = "50 mm"\nstart = { body = "ground", hold = "clamp" }\n'
+    )
+    model = fx.load(tmp_path / "rod.toml")
+    assert "include" not in model.to_toml()
+    assert fx.loads(model.to_toml()).to_dict() == model.to_dict()
+
+
 def test_a_model_with_points_in_a_file_finds_them_beside_it(tmp_path: Path) -> None:
     (tmp_path / "axis.csv").write_text("0,0,0\n0.05,0,0\n0.1,0,0\n0.15,0,0\n")
     m = fx.Model.from_dict({"format": 1, "name": "bent"}, folder=tmp_path)
