@@ -34,6 +34,7 @@ pub(crate) fn beam(name: &str, start: Option<End>, end: Option<End>) -> Beam {
         frame: SectionFrame::Natural,
         theory: BeamTheory { shear: true, extension: true },
         damping: 0.0,
+        added_mass: 0.0,
         start,
         end,
         distributed: Vec::new(),
@@ -131,7 +132,12 @@ pub(crate) fn everything() -> Model {
     m.loads.push(load("l3", LoadTarget::Beam(on(1, 0.3)), LoadFrame::Local));
     m.loads.push(load("l4", LoadTarget::Beam(on(2, 1.0)), LoadFrame::Global));
     m.loads.push(load("l5", LoadTarget::Beam(on(3, 0.0)), LoadFrame::Local));
-    m.masses.push(PointMass { name: "m".into(), point: on(3, 0.6), mass: 0.3 });
+    m.masses.push(PointMass {
+        name: "m".into(),
+        point: on(3, 0.6),
+        mass: 0.3,
+        inertia: flexura_spatial::Matrix3::zeros(),
+    });
     m
 }
 

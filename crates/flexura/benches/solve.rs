@@ -43,6 +43,7 @@ fn cantilever(shape: Shape, curve: Curve, theory: BeamTheory, start: Pose, force
         frame: SectionFrame::Natural,
         theory,
         damping: 0.0,
+        added_mass: 0.0,
         start: Some(End { mount: Mount::Ground, placement: Some(start), hold: JointLaw::weld() }),
         end: None,
         distributed: Vec::new(),

@@ -21,6 +21,8 @@ pub struct Beam {
     pub theory: BeamTheory,
     /// Time τ by which wrenches run ahead of strains, n = C⁻¹ (γ + τ γ̇) (W. Voigt), s.
     pub damping: f64,
+    /// Mass per length that moves with the beam besides its section's and does not weigh, kg/m.
+    pub added_mass: f64,
     /// Where s = 0 is held. None is a free end.
     pub start: Option<End>,
     /// Where s = L is held. None is a free end.

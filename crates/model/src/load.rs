@@ -1,7 +1,7 @@
 //! Point loads, lumped masses and points of attachment.
 
 use crate::{At, BeamId, Mount};
-use flexura_spatial::Vector3;
+use flexura_spatial::{Matrix3, Vector3};
 
 /// A place on a beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +59,8 @@ pub struct PointMass {
     pub point: BeamPoint,
     /// kg.
     pub mass: f64,
+    /// Moments of inertia about its centre in the axes of the section, kg·m².
+    pub inertia: Matrix3<f64>,
 }
 
 /// A point that a spring holds on to.

@@ -246,6 +246,7 @@ fn the_picture_tells_masses_and_gravity_where_there_are_any() {
         name: "sensor".to_owned(),
         point: BeamPoint { beam: BeamId(0), at: At::Fraction(1.0) },
         mass: 0.05,
+        inertia: flexura_spatial::Matrix3::zeros(),
     });
     let text = shape_svg(&model, &solution);
     for words in [">sensor 50 g<", ">2.5 kg<", ">mass<", ">gravity (0, 0, −9.81) m/s²<"] {

@@ -38,6 +38,7 @@ fn strip(force: f64, moment: f64) -> (Model, Solution) {
         frame: SectionFrame::Natural,
         theory: BeamTheory::default(),
         damping: 0.0,
+        added_mass: 0.0,
         start: None,
         end: None,
         distributed: Vec::new(),

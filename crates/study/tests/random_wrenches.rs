@@ -34,6 +34,7 @@ fn cantilever() -> Model {
         frame: SectionFrame::Natural,
         theory: BeamTheory { shear: false, extension: false },
         damping: 0.0,
+        added_mass: 0.0,
         start: Some(End { mount: Mount::Ground, placement: None, hold: JointLaw::weld() }),
         end: None,
         distributed: Vec::new(),

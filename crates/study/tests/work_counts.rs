@@ -28,6 +28,7 @@ fn solved(ei: f64, curve: Curve, start: Pose, force: Vector3<f64>) -> Work {
         frame: SectionFrame::Natural,
         theory: BeamTheory { shear: false, extension: false },
         damping: 0.0,
+        added_mass: 0.0,
         start: Some(End { mount: Mount::Ground, placement: Some(start), hold: JointLaw::weld() }),
         end: None,
         distributed: Vec::new(),

@@ -75,6 +75,7 @@ pub fn cantilever(section: Section, curve: Curve, theory: BeamTheory, place: Pos
         frame: SectionFrame::Natural,
         theory,
         damping: 0.0,
+        added_mass: 0.0,
         start: Some(clamped(Mount::Ground, Some(place))),
         end: None,
         distributed: Vec::new(),

@@ -105,7 +105,9 @@ impl Equilibrium {
             let node = if s <= own.list[e].s[0] + tiny { 0 } else { own.rule.order };
             let place = own.list[e].places[node];
             let motions = self.node_motions(span, own, e, node);
-            lumps.push(Lump::new(mass.mass / unit, &V::zeros(), &Matrix3::zeros(), place, motions));
+            let rotation = &own.list[e].rotations[node];
+            let inertia = rotation * mass.inertia * rotation.transpose() / (unit * length * length);
+            lumps.push(Lump::new(mass.mass / unit, &V::zeros(), &inertia, place, motions));
         }
         lumps.retain(|lump| lump.block != Matrix6::zeros());
         lumps

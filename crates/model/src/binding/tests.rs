@@ -25,6 +25,7 @@ fn model() -> Model {
         frame: SectionFrame::Natural,
         theory: BeamTheory::default(),
         damping: 0.0,
+        added_mass: 0.0,
         start: Some(End { mount: Mount::Ground, placement: None, hold: JointLaw::weld() }),
         end: None,
         distributed: Vec::new(),

@@ -266,15 +266,19 @@ fn body(v: &mut impl Visit, body: &mut Body) {
         v.at(Step::Key("rotation"), Item::Rotation(&mut pose.rotation));
         number(v, "mass", mass);
         numbers(v, "center_of_mass", center_of_mass.iter_mut());
-        v.within(Step::Key("inertia"), |v| {
-            for i in 0..3 {
-                v.within(Step::Index(i), |v| {
-                    for j in 0..3 {
-                        v.at(Step::Index(j), Item::Number(&mut inertia[(i, j)]));
-                    }
-                });
-            }
-        });
+        moments(v, inertia);
+    });
+}
+
+fn moments(v: &mut impl Visit, inertia: &mut flexura_spatial::Matrix3<f64>) {
+    v.within(Step::Key("inertia"), |v| {
+        for i in 0..3 {
+            v.within(Step::Index(i), |v| {
+                for j in 0..3 {
+                    v.at(Step::Index(j), Item::Number(&mut inertia[(i, j)]));
+                }
+            });
+        }
     });
 }
 
@@ -287,6 +291,7 @@ fn beam(v: &mut impl Visit, beam: &mut Beam) {
         frame,
         theory: _,
         damping,
+        added_mass,
         start,
         end,
         distributed: loads,
@@ -294,6 +299,7 @@ fn beam(v: &mut impl Visit, beam: &mut Beam) {
     } = beam;
     v.within(Step::Named("beam", name), |v| {
         number(v, "damping", damping);
+        number(v, "added_mass", added_mass);
         match curve {
             Curve::Straight { length } => number(v, "length", length),
             other => v.within(Step::Key("curve"), |v| of_curve(v, other)),
@@ -528,10 +534,11 @@ impl Model {
         springs.iter_mut().for_each(|one| spring(v, one));
         cables.iter_mut().for_each(|one| cable(v, one));
         nests.iter_mut().for_each(|one| tubes(v, one));
-        for PointMass { name, point, mass } in masses {
+        for PointMass { name, point, mass, inertia } in masses {
             v.within(Step::Named("mass", name), |v| {
                 at(v, "at", &mut point.at);
                 number(v, "mass", mass);
+                moments(v, inertia);
             });
         }
         loads.iter_mut().for_each(|one| load(v, one));

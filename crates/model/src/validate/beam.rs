@@ -42,6 +42,7 @@ impl Model {
         let path = format!("beam.{}", beam.name);
         let length = check_curve(&beam.curve, &path, issues);
         issues.not_negative(format_args!("{path}.damping"), beam.damping);
+        issues.not_negative(format_args!("{path}.added_mass"), beam.added_mass);
         check_frame(beam, &format!("{path}.frame"), issues);
         let material = beam.material.and_then(|id| self.materials.get(id.0));
         if beam.material.is_some() && material.is_none() {

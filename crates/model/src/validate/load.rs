@@ -77,6 +77,7 @@ impl Model {
             let path = format!("mass.{}", mass.name);
             self.check_at(&mass.point, &format!("{path}.at"), issues);
             issues.not_negative(format_args!("{path}.mass"), mass.mass);
+            super::check_inertia(&mass.inertia, &format!("{path}.inertia"), issues);
         }
         for load in &self.loads {
             let path = format!("load.{}", load.name);

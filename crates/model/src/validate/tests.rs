@@ -27,6 +27,7 @@ fn good() -> Model {
             frame: SectionFrame::Natural,
             theory: BeamTheory::default(),
             damping: 0.0,
+            added_mass: 0.0,
             start: Some(End { mount: Mount::Ground, placement: None, hold: JointLaw::weld() }),
             end: None,
             distributed: Vec::new(),
@@ -49,7 +50,12 @@ fn a_sound_model_has_no_issue() {
 
 #[test]
 fn each_mistake_is_found_where_it_is() {
-    let mass = |at| PointMass { name: "m".into(), point: BeamPoint { beam: BeamId(0), at }, mass: 1.0 };
+    let mass = |at| PointMass {
+        name: "m".into(),
+        point: BeamPoint { beam: BeamId(0), at },
+        mass: 1.0,
+        inertia: flexura_spatial::Matrix3::zeros(),
+    };
     assert_eq!(paths(|m| m.materials[0].young = f64::NAN), ["material.steel.young"]);
     assert_eq!(paths(|m| m.materials[0].shear = 0.0), ["material.steel.shear"]);
     assert_eq!(paths(|m| m.materials[0].density = Some(-1.0)), ["material.steel.density"]);
@@ -406,7 +412,12 @@ fn gravity_without_a_mass_is_doubted() {
     let carries = |m: &mut Model| {
         heavy(m);
         let point = BeamPoint { beam: BeamId(0), at: At::Fraction(1.0) };
-        m.masses.push(PointMass { name: "m".into(), point, mass: 1.0 });
+        m.masses.push(PointMass {
+            name: "m".into(),
+            point,
+            mass: 1.0,
+            inertia: flexura_spatial::Matrix3::zeros(),
+        });
     };
     assert!(doubts(carries).is_empty());
 }

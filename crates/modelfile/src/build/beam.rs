@@ -21,6 +21,7 @@ pub(super) fn beam(reader: &Reader<'_, '_>, name: String) -> Read<Beam> {
     let shear = reader.flag("shear");
     let extension = reader.flag("extension");
     let damping = reader.number("damping");
+    let added_mass = reader.number("added_mass");
     let distributed = distributed(reader);
     let foundation = foundations(reader);
     Ok(Beam {
@@ -31,6 +32,7 @@ pub(super) fn beam(reader: &Reader<'_, '_>, name: String) -> Read<Beam> {
         frame: frame?,
         theory: BeamTheory { shear: shear?.unwrap_or(false), extension: extension?.unwrap_or(true) },
         damping: damping?.unwrap_or(0.0),
+        added_mass: added_mass?.unwrap_or(0.0),
         start: start?,
         end: end?,
         distributed: distributed?,

@@ -22,7 +22,7 @@ pub(super) fn body(reader: &Reader<'_, '_>, name: String) -> Read<Body> {
     })
 }
 
-fn inertia(reader: &Reader<'_, '_>) -> Read<Matrix3<f64>> {
+pub(super) fn inertia(reader: &Reader<'_, '_>) -> Read<Matrix3<f64>> {
     let Some((entry, key)) = reader.entry("inertia") else { return Ok(Matrix3::zeros()) };
     let path = reader.key_path("inertia");
     let rows = match &entry.node.value {

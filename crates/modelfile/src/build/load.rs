@@ -10,7 +10,8 @@ pub(super) fn mass(reader: &Reader<'_, '_>, name: String) -> Read<PointMass> {
     let beam = reader.name("beam").needed();
     let at = reader.station("at").needed();
     let mass = reader.number("mass").needed();
-    Ok(PointMass { name, point: BeamPoint { beam: BeamId(beam?), at: at? }, mass: mass? })
+    let inertia = super::body::inertia(reader);
+    Ok(PointMass { name, point: BeamPoint { beam: BeamId(beam?), at: at? }, mass: mass?, inertia: inertia? })
 }
 
 pub(super) fn load(reader: &Reader<'_, '_>, name: String) -> Read<Load> {

@@ -36,7 +36,7 @@ pub(crate) static BODY: Table = table(
             Shape::Inertia,
             Default("0"),
             "[1e-5, 1e-5, 2e-5]",
-            "About the centre of mass in the body's axes; used by motion only.",
+            "About the centre of mass in the body's axes; used by motion and modes.",
         ),
     ],
 );
@@ -47,6 +47,13 @@ pub(crate) static MASS: Table = table(
         key("beam", Shape::Name(Named::Beam), Required, "\"link\"", "The beam."),
         key("at", Shape::Station, Required, "0.5", "Where along it."),
         key("mass", Shape::Number(D::MASS), Required, "\"50 g\"", "The mass."),
+        key(
+            "inertia",
+            Shape::Inertia,
+            Default("0"),
+            "[1e-6, 2e-6, 2e-6]",
+            "About its centre in the axes of the beam's section; used by modes.",
+        ),
     ],
 );
 

@@ -273,6 +273,13 @@ pub(crate) static BEAM: Table = table(
             "Time τ of a damping within the material: forces and moments are those of the strains plus τ times their rates. A mode of circular frequency ω has the damping ratio τ ω/2.",
         ),
         key(
+            "added_mass",
+            Shape::Number(D::MASS_PER_LENGTH),
+            Default("0"),
+            "\"0.1 kg/m\"",
+            "Mass per undeformed length that moves with the beam besides its section's and does not weigh, as of a fluid around it.",
+        ),
+        key(
             "distributed",
             Shape::Tables(&DISTRIBUTED),
             Optional,

@@ -65,6 +65,7 @@ impl Writer<'_> {
             table.put("beam", Value::text(&model[one.point.beam].name));
             table.put("at", self.at(&format!("{path}.at"), one.point.at));
             table.put("mass", self.number(&format!("{path}.mass"), one.mass));
+            self.moments(&path, &one.inertia, &mut table);
             text.push_str(&table.section("mass", &one.name));
         }
         for one in &model.loads {
@@ -143,12 +144,16 @@ impl Writer<'_> {
         if body.center_of_mass != Vector3::zeros() || self.is_bound(&center) {
             table.put("center_of_mass", self.vector(&center, &body.center_of_mass));
         }
-        let inertia = format!("{path}.inertia");
-        if body.inertia != Matrix3::zeros() || self.is_bound(&inertia) {
-            let rows = (0..3).map(|i| std::array::from_fn::<f64, 3, _>(|j| body.inertia[(i, j)]));
-            table.put("inertia", self.rows(&inertia, rows));
-        }
+        self.moments(&path, &body.inertia, &mut table);
         table
+    }
+
+    fn moments(&self, path: &str, inertia: &Matrix3<f64>, table: &mut Table) {
+        let path = format!("{path}.inertia");
+        if *inertia != Matrix3::zeros() || self.is_bound(&path) {
+            let rows = (0..3).map(|i| std::array::from_fn::<f64, 3, _>(|j| inertia[(i, j)]));
+            table.put("inertia", self.rows(&path, rows));
+        }
     }
 
     fn beam(&self, beam: &Beam) -> Result<Table, Issue> {
@@ -173,6 +178,9 @@ impl Writer<'_> {
         }
         if beam.damping != 0.0 || self.is_bound(&format!("{path}.damping")) {
             table.put("damping", self.number(&format!("{path}.damping"), beam.damping));
+        }
+        if beam.added_mass != 0.0 || self.is_bound(&format!("{path}.added_mass")) {
+            table.put("added_mass", self.number(&format!("{path}.added_mass"), beam.added_mass));
         }
         let loads = beam.distributed.iter().enumerate();
         let loads = loads.map(|(i, load)| self.distributed(load, &self.of_list(&path, "distributed", i)));

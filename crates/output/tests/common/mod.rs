@@ -39,6 +39,7 @@ fn beam(name: &str, section: SectionId, material: Option<MaterialId>, length: f6
         frame: SectionFrame::Natural,
         theory: BeamTheory::default(),
         damping: 0.0,
+        added_mass: 0.0,
         start: clamp(Mount::Ground),
         end: clamp(Mount::Body(BodyId(0))),
         distributed: Vec::new(),

@@ -58,6 +58,7 @@ pub fn model() -> Model {
             frame: SectionFrame::Natural,
             theory: BeamTheory::default(),
             damping: 0.0,
+            added_mass: 0.0,
             start: end(Mount::Ground),
             end: end(Mount::Body(BodyId(0))),
             distributed: Vec::new(),

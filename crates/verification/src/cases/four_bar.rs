@@ -83,6 +83,7 @@ fn model() -> Model {
         frame: SectionFrame::Natural,
         theory: UNSHEARABLE,
         damping: 0.0,
+        added_mass: 0.0,
         start: Some(clamped(Mount::Body(BodyId(0)), Some(top))),
         end: Some(clamped(Mount::Body(BodyId(1)), Some(turned))),
         distributed: Vec::new(),

@@ -50,6 +50,7 @@ fn model() -> Model {
         name: "payload".to_string(),
         point: BeamPoint { beam: BeamId(0), at: At::Fraction(1.0) },
         mass: MASS,
+        inertia: flexura_spatial::Matrix3::zeros(),
     });
     model
 }

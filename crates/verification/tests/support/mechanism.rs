@@ -74,6 +74,7 @@ pub fn mechanism(draw: &Draw) -> Model {
         frame: SectionFrame::Natural,
         theory,
         damping: 0.0,
+        added_mass: 0.0,
         start,
         end,
         distributed: Vec::new(),
@@ -184,7 +185,12 @@ fn add_joints_and_loads(model: &mut Model, along: Vector3<f64>, across: Vector3<
     model.springs.push(Spring::linear("stay", on_lever, ground(0.5, 1.0, 0.5), 0.8));
     let on_whip = Attachment::on_beam(on(WHIP, 0.4));
     model.springs.push(Spring::linear("guy", on_whip, ground(-0.5, 0.2, 1.0), 0.5));
-    model.masses.push(PointMass { name: "weight".to_string(), point: on(ARM, 0.3), mass: 0.15 });
+    model.masses.push(PointMass {
+        name: "weight".to_string(),
+        point: on(ARM, 0.3),
+        mass: 0.15,
+        inertia: flexura_spatial::Matrix3::zeros(),
+    });
     let mut load = |name: &str, target, force, moment, frame| {
         model.loads.push(Load { name: name.to_string(), target, force, moment, frame });
     };
