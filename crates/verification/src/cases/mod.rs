@@ -34,6 +34,7 @@ mod sideways;
 mod slide_law;
 mod snaps;
 mod spring;
+mod state_space;
 mod strip;
 mod taper;
 mod tendons;
@@ -84,6 +85,7 @@ pub fn cases() -> Vec<Case> {
         &modes::CASES,
         &modes_curved::CASES,
         &modes_of_mechanisms::CASES,
+        &state_space::CASES,
         &flutter::CASES,
         &motion::CASES,
         &rolling::CASES,
