@@ -23,7 +23,7 @@ const PLACES: [f64; 6] = [1.0, 10.0, 40.0, 55.0, 80.0, 100.0];
 fn ask(residual_vectors: usize) -> Result<StateSpace, String> {
     let text = "format = 1\nname = \"cantilever\"\n[section.rod]\nshape = \"stiffness\"\nGJ = 0.8\nEI2 = 40\nEI3 = 1\nmass_per_length = 1\n\
                 rotary_inertia = [1e-3, 0, 0]\n[beam.rod]\nsection = \"rod\"\nlength = 1\nextension = false\n\
-                start = { body = \"ground\", hold = \"clamp\" }\n[load.tip]\nbeam = \"rod\"\nat = 1\n\
+                start = { body = \"ground\", hold = \"clamp\" }\n[load.tip]\nbeam = \"rod\"\nat = 1\nforce = [0, 0, 0]\n\
                 [output]\ntip = \"beam.rod.end.displacement.y\"\n";
     let file = Document::parse(text, "cantilever.toml").map_err(|report| report.render(false))?;
     let model = file.model(&[]).map_err(|report| report.render(false))?;
