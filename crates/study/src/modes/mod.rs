@@ -245,7 +245,9 @@ fn start(waves: &[Wave], has_energy: bool, residual: f64) -> Start {
 /// A shift below ω² that are known roughly.
 fn shift_below(squares: &[f64]) -> f64 {
     let first = squares.iter().copied().fold(f64::INFINITY, f64::min).min(1e300);
-    let next = squares.iter().map(|square| square.abs()).find(|square| *square > 0.0).unwrap_or(1.0);
+    // What may be nothing tells no distance.
+    let faint = FAINT * squares.iter().map(|square| square.abs()).fold(0.0, f64::max);
+    let next = squares.iter().map(|square| square.abs()).find(|square| *square > faint).unwrap_or(1.0);
     if first < 1e300 { first - 0.3 * first.abs().max(next) } else { -1.0 }
 }
 
