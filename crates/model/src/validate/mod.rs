@@ -251,7 +251,7 @@ impl Model {
     }
 }
 
-pub(super) fn check_inertia(inertia: &Matrix3<f64>, path: &str, issues: &mut Issues) {
+fn check_inertia(inertia: &Matrix3<f64>, path: &str, issues: &mut Issues) {
     if !inertia.iter().all(|x| x.is_finite()) {
         issues.add(path, "must be finite numbers");
         return;
