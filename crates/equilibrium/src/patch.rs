@@ -102,8 +102,10 @@ fn same_but_loads(own: &Beam, other: &Beam) -> bool {
         distributed: _,
         foundation,
         damping,
+        added_mass,
     } = own;
     *damping == other.damping
+        && *added_mass == other.added_mass
         && *name == other.name
         && *material == other.material
         && *section == other.section

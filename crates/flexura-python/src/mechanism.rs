@@ -189,7 +189,7 @@ impl Mechanism {
         py: Python<'_>,
         values: Values,
         tolerance: f64,
-        (count, at_rest): (usize, bool),
+        modes: (usize, bool),
         inputs: Vec<String>,
         outputs: Vec<String>,
         damping_ratio: f64,
@@ -200,6 +200,7 @@ impl Mechanism {
             let options = Options { tolerance, interrupt: interrupt.clone(), ..Options::default() };
             let model = self.at(&given)?;
             let request = StateSpaceRequest { inputs, outputs, damping_ratio, residual_vectors };
+            let (count, at_rest) = modes;
             let study = ModesStudy { count, at_rest, path: None };
             let space = state_space(&model, &study, &request, &options, &mut |_| {})?;
             let written = state_space_document(&model, &space)

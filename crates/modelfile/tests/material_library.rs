@@ -33,7 +33,8 @@ fn the_library_gives_what_is_not_written_beside_it() {
     let plain = &model("library = \"titanium-6al-4v\"").materials[0];
     assert_eq!((plain.young, plain.density, plain.yield_strength), (114e9, Some(4430.0), Some(830e6)));
     assert_eq!(plain.shear, known.shear_with(114e9));
-    let own = &model("library = \"titanium-6al-4v\"\ndensity = \"4500 kg/m^3\"\nshear = \"40 GPa\"").materials[0];
+    let own =
+        &model("library = \"titanium-6al-4v\"\ndensity = \"4500 kg/m^3\"\nshear = \"40 GPa\"").materials[0];
     assert_eq!((own.young, own.shear, own.density), (114e9, 40e9, Some(4500.0)));
 }
 

@@ -61,7 +61,7 @@ impl Equilibrium {
 
     /// A vector of one pencil as one of another, of the same mechanism with other elements: its motions, without wrenches;
     /// zero where the two are not cut at the same places.
-    pub fn carried(&self, from: &Vibration, x: &[f64], to: &Vibration) -> Vec<f64> {
+    pub fn vector_carried(&self, from: &Vibration, x: &[f64], to: &Vibration) -> Vec<f64> {
         let mut out = vec![0.0; to.size];
         let is_alike = from.layout.interface == to.layout.interface && from.spans.len() == to.spans.len();
         if !is_alike {

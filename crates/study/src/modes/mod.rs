@@ -270,7 +270,7 @@ impl Found {
     ) -> Result<Self, Trouble> {
         let vibration = problem.vibration(detail)?;
         if let Some(source) = source {
-            start.vectors.iter_mut().for_each(|x| *x = problem.carried(source, x, &vibration));
+            start.vectors.iter_mut().for_each(|x| *x = problem.vector_carried(source, x, &vibration));
         }
         if vibration.inertia.is_empty() {
             return Err(Trouble::Weightless);
