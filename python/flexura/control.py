@@ -63,7 +63,8 @@ class StateSpace:
     @property
     def response_error(self) -> float | None:
         """Largest difference from the undamped response of the whole mechanism up to the last mode, beside the largest response."""
-        return self.document["response_error"]
+        error = self.document["response_error"]
+        return None if error is None else float(error)
 
     def response(self, omega: Any) -> Array:
         """C (iω - A)⁻¹ B + D at circular frequencies (rad/s): (n, outputs, inputs), complex."""
