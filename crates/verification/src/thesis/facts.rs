@@ -21,6 +21,11 @@ pub(super) fn facts() -> Result<Vec<Fact>, String> {
     ball(&mut facts)?;
     pinned_knee(&mut facts)?;
     third_ellipse(&mut facts)?;
+    // Example 3.1.3, case 2(a): one circle of 1 cm on another.
+    let circle = ELLIPSE.replace("semi_axes = [\"2 cm\", \"1 cm\"]", "semi_axes = [\"1 cm\", \"1 cm\"]");
+    let circle = File::new(&circle)?.solve(&[("turned", PI / 3.0)], 1e-9)?;
+    facts.push(("circles angle".into(), circle.number("angle").to_degrees()));
+    facts.push(("circles distance".into(), 100.0 * circle.number("distance")));
     let shoulder = File::new(SHOULDER)?.solve(&[], 1e-9)?;
     facts.push(("shoulder roll".into(), 1e3 * shoulder.number("roll")));
     facts.push(("shoulder slide".into(), 1e3 * shoulder.number("slide")));
