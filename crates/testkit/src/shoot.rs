@@ -17,8 +17,11 @@ pub struct Shooting<'a, const N: usize> {
     /// The start, of the unknown numbers.
     pub start: &'a dyn Fn(f64, &[f64; N]) -> State,
     /// What must vanish, of the unknown numbers and the end.
-    pub misfit: &'a dyn Fn(f64, &[f64; N], &State) -> [f64; N],
+    pub misfit: &'a Misfit<'a, N>,
 }
+
+/// What must vanish: by the fraction of the way, the unknown numbers and the end.
+pub type Misfit<'a, const N: usize> = dyn Fn(f64, &[f64; N], &State) -> [f64; N] + 'a;
 
 impl<const N: usize> Shooting<'_, N> {
     /// The end that is reached.
