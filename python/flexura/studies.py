@@ -255,6 +255,11 @@ class Modes(Study):
         """By which rate each mode grows, 1/s."""
         return np.array([mode["growth"] for mode in self.modes], dtype=float)
 
+    @property
+    def damping_ratios(self) -> Array:
+        """Damping ratios (n,); zero where nothing damps."""
+        return np.array([mode.get("damping_ratio", 0.0) for mode in self.modes], dtype=float)
+
     @cached_property
     def effective_masses(self) -> Array:
         """Effective masses (n, 6): of shifts along x, y, z (kg) and of turnings about them (kg·m²)."""
@@ -294,6 +299,10 @@ class Frequencies(Study):
     def growth(self, branch: int = 0) -> Array:
         """By which rate modes grow (n, modes), 1/s."""
         return self._each(branch, "growth")
+
+    def onsets(self, branch: int = 0) -> list[dict[str, Any]]:
+        """Where along a branch flutter or divergence sets in or ends: ``parameter``, ``kind``, ``begins``, ``rate`` (rad/s)."""
+        return list(self.document["branches"][branch]["onsets"])
 
     def _each(self, branch: int, key: str) -> Array:
         points = self.document["branches"][branch]["points"]

@@ -79,6 +79,24 @@ def test_natural_frequencies_are_those_of_a_bar() -> None:
     assert "Hz" in repr(found)
 
 
+def test_damped_modes_have_damping_ratios() -> None:
+    model = fx.load(str(MODELS / "beck_column.toml"))
+    found = model.modes(2, at_rest=True, parameters={"damping": 0.01})
+    # s² + ω² (1 + γ s) = 0 for each ω of the undamped cantilever.
+    omega = np.array([1.875104068711961, 4.694091132974175]) ** 2
+    assert found.damping_ratios == pytest.approx(0.005 * omega, rel=1e-8)
+    assert found.growth == pytest.approx(-0.005 * omega**2, rel=1e-8)
+
+
+def test_the_onset_of_flutter_is_found_along_a_path() -> None:
+    model = fx.load(str(MODELS / "beck_column.toml"))
+    found = model.frequencies("push", 5, 25, count=3)
+    (onset,) = found.onsets()
+    # M. Beck, ZAMP 3 (1952) 225.
+    assert onset["kind"] == "flutter" and onset["begins"]
+    assert onset["parameter"] == pytest.approx(20.050953619, rel=1e-9)
+
+
 def test_branches_are_followed() -> None:
     path = column().trace("push", 0, 4, branches=1)
     assert path.branch_points[0].parameter == pytest.approx(np.pi**2 / 4, rel=1e-8)

@@ -9,7 +9,7 @@ use flexura_geometry::{
 };
 use flexura_mechanics::ode::{NODES, STAGES};
 use flexura_mechanics::rod::{Coupled, LawTable, LoadSample, Piece, Shearable, Slender};
-use flexura_model::{Beam, BeamId, LoadAxes, Material, Model, Profile, Section};
+use flexura_model::{Beam, BeamId, LoadAxes, Material, Model, Profile, Section, Spin};
 use flexura_spatial::{Matrix6, Vector3};
 
 /// Rest curvature and compliance at one place, SI.
@@ -61,6 +61,7 @@ pub(crate) struct BeamLaw {
     section: Section,
     material: Option<Material>,
     gravity: Vector3<f64>,
+    spin: Option<Spin>,
     uniform: bool,
     loaded: bool,
     loads_uniform: bool,
@@ -104,6 +105,7 @@ impl BeamLaw {
             coupled: false,
             breaks: Vec::new(),
             gravity: model.gravity,
+            spin: model.spin,
             scale: Scale { length: 1.0, force: 1.0 },
             softest: 0.0,
             supple: 0.0,
@@ -129,6 +131,7 @@ impl BeamLaw {
         let (own, other) = (&self.beam, &model[id]);
         self.softening == 0.0
             && self.gravity == model.gravity
+            && self.spin == model.spin
             && (own.start.is_some(), own.end.is_some()) == (other.start.is_some(), other.end.is_some())
             && own.theory == other.theory
             && own.curve == other.curve
@@ -272,6 +275,16 @@ impl BeamLaw {
             .distributed
             .iter()
             .any(|d| d.axes == LoadAxes::Global && d.moment.iter().any(|p| p.as_constant() != Some(0.0)))
+    }
+
+    /// How the frame spins in which it is described.
+    pub fn spin(&self) -> Option<Spin> {
+        self.spin
+    }
+
+    /// Are curvature and section the same all along?
+    pub fn is_uniform(&self) -> bool {
+        self.uniform
     }
 
     /// Arc lengths inside the beam where something is not smooth, SI, increasing.

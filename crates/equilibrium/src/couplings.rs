@@ -6,6 +6,7 @@ use crate::lower::RopeLaw;
 use crate::shooting::{Pull, SegmentEnd};
 use crate::system::{Equilibrium, read_pose};
 use flexura_mechanics::joint::{Kinematics, MAX_FREEDOMS};
+use flexura_mechanics::load::Outward;
 use flexura_mechanics::spring::{SpringForce, constant_tension};
 use flexura_spatial::{Vector3, Wrench, log};
 
@@ -81,11 +82,16 @@ impl Equilibrium {
     }
 
     pub(crate) fn evaluate_node_loads(&self, sink: &mut Sink<'_>) {
+        self.evaluate_spin(sink);
         for (node, slot) in self.lowered.nodes.iter().zip(&self.layout.nodes) {
             let pose = read_pose(&self.x, slot.state);
             for (point, load, _) in &node.loads {
-                let wrench = load.at(&pose.rotation) * self.load;
+                let mut wrench = load.at(&pose.rotation) * self.load;
                 let arm = pose.rotation * point;
+                if let Some(outward) = &load.outward {
+                    wrench.force += outward.force(&(pose.position + arm)) * self.load;
+                    self.pull_outwards(outward, &arm, slot.unknown, sink);
+                }
                 sink.add_residual(slot.unknown, &(wrench.moment + arm.cross(&wrench.force)));
                 sink.add_residual(slot.unknown + 3, &wrench.force);
                 if sink.matrix.is_some() {
@@ -98,6 +104,19 @@ impl Equilibrium {
                     }
                 }
             }
+        }
+    }
+
+    /// How centrifugal force on a mass, `arm` away from a node's origin, changes with the node's motion.
+    fn pull_outwards(&self, outward: &Outward, arm: &V, node: usize, sink: &mut Sink<'_>) {
+        if sink.matrix.is_none() {
+            return;
+        }
+        for i in 0..6 {
+            let shift = if i < 3 { unit(i).cross(arm) } else { unit(i - 3) };
+            let change = outward.change(&shift) * self.load;
+            sink.add(node, node + i, &arm.cross(&change));
+            sink.add(node + 3, node + i, &change);
         }
     }
 

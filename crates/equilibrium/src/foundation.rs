@@ -202,18 +202,20 @@ impl BeamLaw {
 
     /// Largest stiffness at rest between two arc lengths, nondimensional.
     pub fn foundation_stiffness(&self, [a, b]: [f64; 2]) -> f64 {
+        let outward = self.outward_slope(0.5 * (a + b));
         if !self.founded.meets([a, b], self.length) {
-            return 0.0;
+            return outward;
         }
         let inset = 1e-9 * (b - a);
         let places = (0..PLACES).map(|i| a + inset + (b - a - 2.0 * inset) * i as f64 / (PLACES - 1) as f64);
         let slope = |s: f64| self.pushes(s, &V::zeros()).iter().map(|push| push.slope.abs()).sum::<f64>();
-        self.foundation_unit() * places.map(slope).fold(0.0, f64::max)
+        outward + self.foundation_unit() * places.map(slope).fold(0.0, f64::max)
     }
 
     /// What the kernel reads of them between `a` and `b` (m), nondimensional.
     pub fn foundation(&self, a: f64, b: f64, steps: usize) -> Option<Foundation> {
-        if !self.founded.holds([a, b], self.length) {
+        let spin = self.spinning(a, b, steps);
+        if spin.is_none() && !self.founded.holds([a, b], self.length) {
             return None;
         }
         let unit = self.foundation_unit();
@@ -245,6 +247,6 @@ impl BeamLaw {
                 stiffness: std::array::from_fn(|i| std::array::from_fn(|j| stiffness[(i, j)])),
             });
         }
-        Some(Foundation { samples, resistances })
+        Some(Foundation { samples, resistances, spin })
     }
 }

@@ -50,6 +50,7 @@ mod regime;
 mod samples;
 mod scale;
 mod shooting;
+mod spin;
 mod springs;
 mod stability;
 mod stand;

@@ -120,8 +120,8 @@ impl Reader<'_> {
             self.add(Kind::Moment, &dead_moment);
             self.add(Kind::Moment, &section_moment);
         }
-        if !self.law.founded.is_empty() {
-            let push = self.law.stiffness_at_rest(s);
+        if !self.law.founded.is_empty() || self.law.spins() {
+            let push = self.law.stiffness_at_rest(s) + self.law.outward_slope(s);
             look.push = look.push.max(push);
             self.add(Kind::Push, &[push]);
         }

@@ -103,6 +103,13 @@ impl Equilibrium {
         if law.is_loaded() {
             level.force += self.distributed_force(span).last().map_or(0.0, |(_, sum)| *sum);
         }
+        if law.spins() {
+            let rest = span.s.map(|s| self.lowered.rest_pose(span.beam, s).position);
+            let through = law.spin().map_or(Vector3::zeros(), |spin| spin.through / law.scale.length);
+            let arm = rest.iter().map(|place| (place - through).norm()).fold(0.0, f64::max);
+            let length = (span.s[1] - span.s[0]) / law.scale.length;
+            level.force += law.outward_slope(0.5 * (span.s[0] + span.s[1])) * arm * length;
+        }
         for channel in &span.channels {
             if let RopeLaw::Tension(tension) = self.lowered.ropes[span.tendons[channel.tendon]].law {
                 level.tendons += tension * channel.reach;

@@ -102,6 +102,18 @@ pub(crate) fn jump<const W: usize>(jump: &Jump, load: f64, state: &mut RodState<
         state.force[i] -= load * wrench.force[i];
         state.moment[i] -= load * wrench.moment[i];
     }
+    if let Some(outward) = &jump.load.outward {
+        let pull = outward.force(&Vector3::from(state.position));
+        for i in 0..3 {
+            state.force[i] -= load * pull[i];
+        }
+        for l in 1..W {
+            let change = outward.change(&Vector3::new(state.d[3][l], state.d[4][l], state.d[5][l]));
+            for i in 0..3 {
+                state.d[6 + i][l] -= load * change[i];
+            }
+        }
+    }
     if W > 1 && jump.load.follows() {
         for l in 1..W {
             let turning = Vector3::new(state.d[0][l], state.d[1][l], state.d[2][l]);

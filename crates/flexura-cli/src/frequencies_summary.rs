@@ -4,7 +4,7 @@ use crate::quantity::quantity;
 use crate::screen::{BAD, DIM, GOOD, styled, title};
 use crate::table::Table;
 use flexura::model::Model;
-use flexura::solution::{Followed, ModeKind, ModesAlong, PointKind, Status};
+use flexura::solution::{Followed, ModeKind, ModesAlong, Onset, OnsetKind, PointKind, Status};
 use std::f64::consts::TAU;
 
 /// Points of a branch that are printed, at most.
@@ -42,7 +42,22 @@ pub fn render(model: &Model, along: &ModesAlong) -> String {
         }
         text += &format!("\n{}", table.render());
     }
+    for onset in along.onsets.iter().flatten() {
+        text += &format!("\n{}\n", told(onset, &parameter.name, &parameter.unit));
+    }
     text
+}
+
+/// "flutter sets in at force = 20.050954 N, 1.7532 Hz".
+fn told(onset: &Onset, name: &str, unit: &str) -> String {
+    let does = if onset.begins { "sets in" } else { "ends" };
+    let at = quantity(onset.parameter, unit, 10);
+    let rate = match onset.kind {
+        OnsetKind::Flutter => format!(", {}", quantity(onset.rate / TAU, "Hz", 8)),
+        OnsetKind::Divergence => String::new(),
+    };
+    let error = quantity(onset.error_estimate, "", 2);
+    format!("{} {does} at {name} = {at}{rate} (relative error {error})", onset.kind.word())
 }
 
 fn shown(mode: Option<&Followed>) -> String {

@@ -9,12 +9,37 @@ pub struct PointLoad {
     pub dead: Wrench,
     /// Follower part, in the axes of the section or body.
     pub follower: Wrench,
+    /// What a spinning frame does to a mass there, with its derivative by the place.
+    pub outward: Option<Outward>,
+}
+
+/// Centrifugal force on a mass: m ω² (x - c - a a·(x - c)).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outward {
+    /// m ω².
+    pub mass: f64,
+    /// a, unit vector along the line about which all turns.
+    pub axis: Vector3<f64>,
+    /// c, a point of it.
+    pub through: Vector3<f64>,
+}
+
+impl Outward {
+    /// The force at a place; its derivative turns shifts into forces alike.
+    pub fn force(&self, place: &Vector3<f64>) -> Vector3<f64> {
+        self.change(&(place - self.through))
+    }
+
+    /// How it changes with a shift.
+    pub fn change(&self, shift: &Vector3<f64>) -> Vector3<f64> {
+        (shift - self.axis * self.axis.dot(shift)) * self.mass
+    }
 }
 
 impl PointLoad {
     /// Nothing.
     pub fn zero() -> Self {
-        Self { dead: Wrench::zero(), follower: Wrench::zero() }
+        Self { dead: Wrench::zero(), follower: Wrench::zero(), outward: None }
     }
 
     /// Does nothing act?

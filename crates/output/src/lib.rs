@@ -42,7 +42,7 @@ pub use fitting::{
 pub use json::{Named, to_json};
 pub use kept::{Make, kept_pictures};
 pub use modes::{
-    FrequenciesDocument, FrequencyBranch, FrequencyDocument, FrequencyPoint, ModesDocument,
+    FrequenciesDocument, FrequencyBranch, FrequencyDocument, FrequencyPoint, ModesDocument, OnsetDocument,
     VibrationDocument, frequencies_csv, frequencies_document, modes_document, vibration_csv,
 };
 pub use motion::{

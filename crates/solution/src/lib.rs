@@ -19,7 +19,7 @@ pub use fit::{
     Estimate, Fit, FitWork, FittedRow, MeasuredFit, ResponseFormula, ResponsePiece, ResponsePoint,
     SpecimenFit, Spread, Unseen,
 };
-pub use modes::{Followed, Mode, ModeKind, Modes, ModesAlong, Shares};
+pub use modes::{Followed, Mode, ModeKind, Modes, ModesAlong, Onset, OnsetKind, Shares};
 pub use motion::{BodyMotion, Instant, InverseDynamics, JointMotion, MotionWork, Rates};
 pub use space::{Signal, StateSpace};
 pub use trace::{

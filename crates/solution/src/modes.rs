@@ -35,6 +35,42 @@ pub struct ModesAlong {
     /// For each branch, for each of its points, the modes in the order in which they were met on the branch, each followed by its
     /// shape; None where one is not among the lowest any more. Empty where the point is critical.
     pub followed: Vec<Vec<Vec<Option<Followed>>>>,
+    /// For each branch where along it the number of modes that grow changes, in order.
+    pub onsets: Vec<Vec<Onset>>,
+}
+
+/// Where modes begin to grow along a path, or end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Onset {
+    /// Value of the parameter.
+    pub parameter: f64,
+    /// How what grows there grows.
+    pub kind: OnsetKind,
+    /// Along the branch: do more grow beyond, or fewer?
+    pub begins: bool,
+    /// Circular frequency there, rad/s; zero of a divergence.
+    pub rate: f64,
+    /// Estimated relative error of the value.
+    pub error_estimate: f64,
+}
+
+/// How modes begin to grow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OnsetKind {
+    /// Swinging: two frequencies meet, or what damps a mode begins to drive it.
+    Flutter,
+    /// Without swinging: a frequency has come down to nothing.
+    Divergence,
+}
+
+impl OnsetKind {
+    /// The word that stands in the result document.
+    pub fn word(self) -> &'static str {
+        match self {
+            OnsetKind::Flutter => "flutter",
+            OnsetKind::Divergence => "divergence",
+        }
+    }
 }
 
 /// One mode at a point of a path.

@@ -120,6 +120,14 @@ const MOST_SAMPLES: usize = 30_000;
 const FEWEST_SAMPLES: usize = 5;
 
 /// Why an equilibrium may have no verdict though its mechanism has an energy.
+/// Why the energy of what spins does not decide.
+pub(crate) const SPINS: &str = "the frame spins, and gyroscopic forces may hold what its energy does not";
+
+/// What is said of a verdict that the spectrum has given.
+pub(crate) fn by_motion(reason: &str) -> String {
+    format!("stability is decided by the lowest modes: {reason}")
+}
+
 pub(crate) const CRITICAL: &str = "the equilibrium is critical: a direction gives way without resistance";
 
 /// Work that a solve may do, in integration steps of one state: for every model, and for each span of it.
@@ -351,13 +359,31 @@ impl Prepared {
     /// Says whether the present equilibrium is stable.
     pub(crate) fn judge(&mut self, solution: &mut Solution) {
         match self.problem.stability() {
+            // What is unstable at rest in a spinning frame may be held by its motion.
+            Ok(Stability::Unstable(count)) if count > 0 && self.problem.spins() => {
+                self.judge_by_motion(solution, SPINS);
+            }
             Ok(Stability::Unstable(count)) => {
                 solution.unstable_directions = Some(count);
                 solution.stable = Some(count == 0);
                 solution.stability_reason = None;
             }
-            Ok(Stability::Undecided(reason)) => solution.stability_reason = Some(reason),
+            Ok(Stability::Undecided(reason)) => self.judge_by_motion(solution, &reason),
             Err(_) => solution.stability_reason = Some(CRITICAL.to_string()),
+        }
+    }
+
+    /// Where no energy decides, the lowest modes do.
+    fn judge_by_motion(&mut self, solution: &mut Solution, reason: &str) {
+        let count = crate::modes::unstable_by_motion(&mut self.problem);
+        solution.unstable_directions = count;
+        solution.stable = count.map(|count| count == 0);
+        match count {
+            Some(_) => {
+                solution.stability_reason = None;
+                solution.warnings.push(by_motion(reason));
+            }
+            None => solution.stability_reason = Some(reason.to_string()),
         }
     }
 

@@ -3,8 +3,8 @@
 use flexura::modelfile::Document;
 use flexura::post::{self, Evaluation, OutputValue};
 use flexura::{Options, inverse_dynamics, solve_model};
-use flexura_model::{InverseDynamicsStudy, Model, ModesStudy, MotionLaw, Sampling};
-use flexura_solution::{InverseDynamics, Modes, Solution, Status};
+use flexura_model::{InverseDynamicsStudy, Model, ModesPath, ModesStudy, MotionLaw, Sampling};
+use flexura_solution::{InverseDynamics, Modes, ModesAlong, Solution, Status};
 
 /// What bundled models include.
 const PARTS: &[(&str, &str)] = &[
@@ -75,6 +75,31 @@ impl File {
         match modes.solution.status {
             Status::Converged => Ok(modes),
             status => Err(format!("{}: {}", status.word(), modes.solution.reason.unwrap_or_default())),
+        }
+    }
+
+    /// The lowest modes along a parameter (SI).
+    ///
+    /// # Errors
+    /// The model is wrong, or its path was not followed to the end.
+    pub fn modes_along(
+        &self,
+        parameter: &str,
+        range: [f64; 2],
+        steps: usize,
+        count: usize,
+    ) -> Result<ModesAlong, String> {
+        let model = self.document.model(&[]).map_err(|report| report.render(false))?;
+        let parameter =
+            model.parameters.iter().position(|p| p.name == parameter).ok_or("no such parameter")?;
+        let path = ModesPath { parameter, range, steps };
+        let study = ModesStudy { count, path: Some(path), ..ModesStudy::default() };
+        let options = Options { samples: 3, ..Options::default() };
+        let along = flexura::modes_along(&model, &study, path, &options, &mut |_| {})
+            .map_err(|error| error.to_string())?;
+        match along.trace.status {
+            Status::Converged => Ok(along),
+            status => Err(format!("{}: {}", status.word(), along.trace.reason.unwrap_or_default())),
         }
     }
 

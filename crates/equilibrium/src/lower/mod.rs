@@ -255,9 +255,10 @@ pub(crate) fn lower(
     for (i, body) in model.bodies.iter().enumerate() {
         let mut loads = Vec::new();
         let weight = model.gravity * body.mass;
-        if weight != Vector3::zeros() {
+        let outward = crate::spin::outward(model, &scale, body.mass);
+        if weight != Vector3::zeros() || outward.is_some() {
             let dead = scale.wrench_in(&Wrench::new(weight, Vector3::zeros()));
-            let load = PointLoad { dead, follower: Wrench::zero() };
+            let load = PointLoad { dead, follower: Wrench::zero(), outward };
             loads.push((body.center_of_mass / scale.length, load, None));
         }
         lowered.nodes.push(Node { origin: NodeOrigin::Body(i), initial: scale.pose_in(&body.pose), loads });
@@ -350,8 +351,8 @@ pub(crate) fn point_load(
 ) -> PointLoad {
     let wrench = scale.wrench_in(&Wrench::new(force, moment));
     match frame {
-        LoadFrame::Global => PointLoad { dead: wrench, follower: Wrench::zero() },
-        LoadFrame::Local => PointLoad { dead: Wrench::zero(), follower: wrench },
+        LoadFrame::Global => PointLoad { dead: wrench, follower: Wrench::zero(), outward: None },
+        LoadFrame::Local => PointLoad { dead: Wrench::zero(), follower: wrench, outward: None },
     }
 }
 

@@ -188,7 +188,9 @@ pub(super) fn lower_beam(model: &Model, lowered: &mut Lowered, beam: usize) -> R
         let founded = law.founded.meets([a, b], length);
         // A load that follows counts where it is nothing at the moment, so that neighbouring models have the same parts.
         let follows = |j: &Jump| j.source.is_some_and(|load| model.loads[load].frame != LoadFrame::Global);
-        let determinate = end.is_none() && !founded && !law.may_follow() && !inside.iter().any(follows);
+        let spins = model.spin.is_some();
+        let determinate =
+            end.is_none() && !founded && !spins && !law.may_follow() && !inside.iter().any(follows);
         let mut span = Span {
             beam,
             s: [a, b],
@@ -230,7 +232,8 @@ fn point_loads(model: &Model, scale: &Scale, beam: usize, length: f64) -> Vec<Ju
         // Without gravity, too, so that a neighbouring model with some has the same parts.
         if mass.point.beam.0 == beam {
             let dead = scale.wrench_in(&Wrench::new(model.gravity * mass.mass, Vector3::zeros()));
-            let load = PointLoad { dead, follower: Wrench::zero() };
+            let outward = crate::spin::outward(model, scale, mass.mass);
+            let load = PointLoad { dead, follower: Wrench::zero(), outward };
             jumps.push(Jump { s: mass.point.at.arc_length(length), load, source: None });
         }
     }

@@ -3,8 +3,8 @@
 use super::mesh::Cut;
 use crate::assembly::Sink;
 use crate::held::{Held, HoldRef};
-use crate::layout::CoordinateSlot;
-use crate::lower::Hold;
+use crate::layout::{CoordinateSlot, SpanSlots};
+use crate::lower::{Hold, Span};
 use crate::shooting::{SegmentEnd, wrench_of};
 use crate::system::Equilibrium;
 use flexura_nonlinear::{BlockPlace, Breakdown, Matrix, Symmetric};
@@ -255,6 +255,10 @@ impl Equilibrium {
                 (None, Some(end)) => motions(end, &slots.end),
                 (None, None) => continue,
             };
+            if k == 0 {
+                self.pull_jumps(description, form.s[0], &before, slots, sink);
+            }
+            self.pull_jumps(description, form.s[1], &after, slots, sink);
             // Changes of minus the wrench at the start, and of that at the end.
             let at_start = |f: &mut dyn FnMut(usize, Vector6<f64>)| {
                 before.iter().for_each(|(unknown, x)| f(*unknown, form.aa * x));
@@ -297,6 +301,24 @@ impl Equilibrium {
                     );
                 }
                 _ => {}
+            }
+        }
+    }
+
+    /// Centrifugal force on masses at a place along a span, which grows with the motions of the place.
+    fn pull_jumps(&self, span: &Span, s: f64, motions: &Motions, slots: &SpanSlots, sink: &mut Sink<'_>) {
+        let near = 1e-9 * self.lowered.beams[span.beam].length;
+        let here = span.jumps.iter().filter(|jump| (jump.s - s).abs() <= near);
+        for outward in here.filter_map(|jump| jump.load.outward.as_ref()) {
+            for (column, y) in motions {
+                let change = outward.change(&V::new(y[3], y[4], y[5])) * self.load;
+                for (row, x) in motions {
+                    let within =
+                        |slot: &CoordinateSlot| (slot.unknown..slot.unknown + slot.count).contains(row);
+                    // Rows of coordinates are minus the effort that acts.
+                    let sign = if within(&slots.start) || within(&slots.end) { -1.0 } else { 1.0 };
+                    sink.add_number(*row, *column, sign * V::new(x[3], x[4], x[5]).dot(&change));
+                }
             }
         }
     }

@@ -46,8 +46,9 @@ fn measure(length: f64, look: &Look, level: &Level, pull: f64) -> f64 {
 
 /// κ along a stretch between two states: laws at displacements between those of its ends.
 fn pull(law: &BeamLaw, s: [f64; 2], ends: [&Plain; 2]) -> f64 {
+    let outward = law.outward_slope(0.5 * (s[0] + s[1]));
     if !law.founded.is_nonlinear() {
-        return 0.0;
+        return outward;
     }
     let rest = |s: f64| law.place(s).position / law.scale.length;
     let moved = [0, 1].map(|end| Vector3::from(ends[end].position) - rest(s[end]));
@@ -56,7 +57,7 @@ fn pull(law: &BeamLaw, s: [f64; 2], ends: [&Plain; 2]) -> f64 {
         let s = s[0] + t * (s[1] - s[0]);
         -law.foundation_slopes(s, &(rest(s) + moved[0] * (1.0 - t) + moved[1] * t))[1]
     };
-    (0..PLACES).map(at).fold(0.0, f64::max)
+    outward + (0..PLACES).map(at).fold(0.0, f64::max)
 }
 
 fn norm(v: &[f64; 3]) -> f64 {

@@ -90,6 +90,9 @@ impl Equilibrium {
         let lumps = self.lumps(&spans);
         self.add_inertia(&lumps, &mut vibration);
         self.add_damping(&spans, &mut vibration);
+        for (span, own) in spans.iter().enumerate() {
+            self.add_threads(span, own, &mut vibration);
+        }
         vibration.spans = spans;
         Ok(vibration)
     }
@@ -192,6 +195,27 @@ impl Equilibrium {
         blocks
     }
 
+    /// What a spinning frame does to a lump: gyroscopic terms, and the slope of centrifugal force and moment.
+    fn spin_lump(&self, lump: &Lump, motions: &[(usize, Vector6<f64>)], vibration: &mut Vibration) {
+        let Some(spun) = self.spun() else { return };
+        let rate = spun.rate / vibration.unit.sqrt();
+        let gyroscopic = lump.gyroscopic(&spun.axis) * rate;
+        let centrifugal = (!lump.on_node).then(|| lump.centrifugal(&spun.axis) * (rate * rate));
+        for (j, b) in motions {
+            let turned = gyroscopic * b;
+            let pulled = centrifugal.map(|block| block * b);
+            for (i, a) in motions {
+                let value = a.dot(&turned);
+                if value != 0.0 {
+                    vibration.gyroscopic.push((*i, *j, value));
+                }
+                if let Some(value) = pulled.map(|pulled| a.dot(&pulled)).filter(|value| *value != 0.0) {
+                    vibration.stiffness.push((*i, *j, value));
+                }
+            }
+        }
+    }
+
     fn add_inertia(&self, lumps: &[Lump], vibration: &mut Vibration) {
         let columns = std::mem::take(&mut vibration.columns);
         let (mass, mut center) = (lumps.iter().map(Lump::mass).sum::<f64>(), V::zeros());
@@ -213,6 +237,7 @@ impl Equilibrium {
             if motions.is_empty() {
                 continue;
             }
+            self.spin_lump(lump, &motions, vibration);
             for axis in 0..6 {
                 let motion = lump.as_a_whole(axis, &center);
                 let carried = lump.block * motion;

@@ -9,7 +9,7 @@ use crate::shooting::{Acting, Plain, carry_plain, carry_through, jump, pose_of};
 use crate::system::Equilibrium;
 use flexura_nonlinear::Breakdown;
 use flexura_spatial::{Matrix3, Vector3};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
 type V = Vector3<f64>;
@@ -34,6 +34,8 @@ pub(super) struct Element {
     pub tangent: DMatrix<f64>,
     /// What rates add to it per time of damping, of beams that have one; see [`element::viscous`].
     pub viscous: Option<DMatrix<f64>>,
+    /// For each tendon in it how its length goes with the motions of the nodes.
+    pub threads: Vec<(usize, DVector<f64>)>,
     /// Where its nodes are.
     pub places: Vec<V>,
     /// Orientation of its nodes.
@@ -156,12 +158,13 @@ impl Equilibrium {
         state
     }
 
-    fn point(&self, law: &BeamLaw, s: f64, state: &Plain) -> Point {
+    fn point(&self, span: usize, law: &BeamLaw, s: f64, state: &Plain) -> Point {
         let local = law.scaled_law(s);
         let pose = pose_of(state);
         let rotation = pose.rotation.to_rotation_matrix().into_inner();
         let (force, moment) = (V::from(state.force), V::from(state.moment));
-        let (n, m) = (rotation.tr_mul(&force), rotation.tr_mul(&moment));
+        let whole = [rotation.tr_mul(&force), rotation.tr_mul(&moment)];
+        let (threads, [n, m]) = self.threads_at(span, s, &local, whole);
         let c = &local.compliance;
         let strain = c.fixed_view::<3, 3>(0, 0) * n + c.fixed_view::<3, 3>(0, 3) * m + V::x();
         let load = law.scaled_load(s);
@@ -175,6 +178,7 @@ impl Equilibrium {
             compliance: local.compliance,
             foundation: law.foundation_slope(s, &place),
             follower,
+            threads,
         }
     }
 
@@ -238,7 +242,7 @@ impl Equilibrium {
         let mut kept = [false; 6];
         for part in wanted.chunks(per) {
             let points: Vec<Point> =
-                part.iter().skip(1).step_by(2).map(|at| self.point(law, at.s, &at.state)).collect();
+                part.iter().skip(1).step_by(2).map(|at| self.point(span, law, at.s, &at.state)).collect();
             let beam = law.length / law.scale.length;
             for point in &points {
                 let own = element::kept(&point.compliance, beam);
@@ -259,11 +263,12 @@ impl Equilibrium {
             } else {
                 None
             };
+            let threads = element::lengths(rule, length, points);
             let nodes = || part.iter().step_by(2);
             let places = nodes().map(|at| V::from(at.state.position)).collect();
             let rotations =
                 nodes().map(|at| pose_of(&at.state).rotation.to_rotation_matrix().into_inner()).collect();
-            list.push(Element { s, tangent, viscous, places, rotations });
+            list.push(Element { s, tangent, viscous, threads, places, rotations });
         }
         let mut elements = Elements {
             rule: rule.clone(),

@@ -20,8 +20,9 @@
 //! Element Method*, vol. 1, 5th ed., 2000, ch. 12).
 
 use super::rule::Rule;
+use super::tendon::Thread;
 use flexura_spatial::{Matrix3, Matrix6, Vector3, hat};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 type V = Vector3<f64>;
 
@@ -39,6 +40,8 @@ pub(super) struct Point {
     pub foundation: Matrix3<f64>,
     /// Force and moment per length that follow the section.
     pub follower: [V; 2],
+    /// Tendons in channels there.
+    pub threads: Vec<Thread>,
 }
 
 /// Compliance in stretching and shear, beside that in bending times the square of the length, below which the wrench is an
@@ -81,6 +84,26 @@ fn strain(point: &Point, value: f64, slope: f64) -> Matrix6<f64> {
     strain.fixed_view_mut::<3, 3>(0, 3).copy_from(&(inverse * slope));
     strain.fixed_view_mut::<3, 3>(3, 0).copy_from(&(inverse * slope));
     strain
+}
+
+/// How the lengths of tendons in an element go with the motions of its nodes.
+pub(super) fn lengths(rule: &Rule, length: f64, points: &[Point]) -> Vec<(usize, DVector<f64>)> {
+    let mut all: Vec<(usize, DVector<f64>)> = Vec::new();
+    for (g, point) in points.iter().enumerate() {
+        let weight = 0.5 * length * rule.point_weights[g];
+        for thread in &point.threads {
+            let at = all.iter().position(|(rope, _)| *rope == thread.rope).unwrap_or_else(|| {
+                all.push((thread.rope, DVector::zeros(6 * rule.nodes.len())));
+                all.len() - 1
+            });
+            for (j, (value, slope)) in rule.values[g].iter().zip(&rule.slopes[g]).enumerate() {
+                let change = strain(point, *value, slope * 2.0 / length).tr_mul(&thread.along) * weight;
+                let mut part = all[at].1.fixed_rows_mut::<6>(6 * j);
+                part += change;
+            }
+        }
+    }
+    all
 }
 
 /// What rates of the strains add to the tangent, per τ of n = C⁻¹ (γ + τ γ̇): to virtual work ∫ δγ·C⁻¹ γ̇, and γ̇ to the equation
@@ -129,7 +152,8 @@ pub(super) fn tangent(rule: &Rule, length: f64, points: &[Point], kept: &[bool; 
         let weight = 0.5 * length * rule.point_weights[g];
         let slopes: Vec<f64> = rule.slopes[g].iter().map(|slope| slope * 2.0 / length).collect();
         let values = &rule.values[g];
-        let stiff = stiffness(&point.compliance, kept)? * weight;
+        let pulled: Matrix6<f64> = point.threads.iter().map(|thread| thread.stiffness).sum();
+        let stiff = (stiffness(&point.compliance, kept)? + pulled) * weight;
         for j in 0..nodes {
             strains[j] = strain(point, values[j], slopes[j]);
             stresses[j] = stiff * strains[j];

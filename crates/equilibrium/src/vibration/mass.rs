@@ -14,6 +14,8 @@ pub(super) struct Lump {
     pub block: Matrix6<f64>,
     /// Where the shift is taken.
     pub place: V,
+    /// Is it the inertia of a body or of a mass on a node, whose centrifugal force is among the node's loads?
+    pub on_node: bool,
     /// How `place` moves along each unknown of the plain tangent.
     pub motions: Motions,
 }
@@ -27,7 +29,36 @@ impl Lump {
         block.fixed_view_mut::<3, 3>(0, 3).copy_from(&lever);
         block.fixed_view_mut::<3, 3>(3, 0).copy_from(&-lever);
         block.fixed_view_mut::<3, 3>(3, 3).copy_from(&(Matrix3::identity() * mass));
-        Self { block, place, motions }
+        Self { block, place, on_node: false, motions }
+    }
+
+    /// 2 ∫ Nᵀ [a ×] N dm, with N how its particles move with (turning, shift): what turning the frame at a rate of 1 about the axis
+    /// does to rates. Antisymmetric.
+    pub fn gyroscopic(&self, axis: &V) -> Matrix6<f64> {
+        let lever: Matrix3<f64> = self.block.fixed_view::<3, 3>(0, 3).into_owned();
+        let inertia: Matrix3<f64> = self.block.fixed_view::<3, 3>(0, 0).into_owned();
+        let second = Matrix3::identity() * (0.5 * inertia.trace()) - inertia;
+        let turn = hat(axis);
+        let mut out = Matrix6::zeros();
+        out.fixed_view_mut::<3, 3>(0, 0).copy_from(&(hat(&(second * axis)) * 2.0));
+        out.fixed_view_mut::<3, 3>(0, 3).copy_from(&(lever * turn * 2.0));
+        out.fixed_view_mut::<3, 3>(3, 0).copy_from(&(turn * lever.transpose() * 2.0));
+        out.fixed_view_mut::<3, 3>(3, 3).copy_from(&(turn * (2.0 * self.mass())));
+        out
+    }
+
+    /// -∂(force, moment) of what spins at a rate of 1 about the axis, for what has its centre at its place.
+    pub fn centrifugal(&self, axis: &V) -> Matrix6<f64> {
+        let inertia: Matrix3<f64> = self.block.fixed_view::<3, 3>(0, 0).into_owned();
+        let mut out = Matrix6::zeros();
+        for i in 0..3 {
+            let mut unit = V::zeros();
+            unit[i] = 1.0;
+            let change = hat(&unit) * inertia - inertia * hat(&unit);
+            out.fixed_view_mut::<3, 1>(0, i).copy_from(&-(change * axis).cross(axis));
+            out.fixed_view_mut::<3, 1>(3, 3 + i).copy_from(&((axis * axis.dot(&unit) - unit) * self.mass()));
+        }
+        out
     }
 
     pub fn mass(&self) -> f64 {
@@ -88,7 +119,8 @@ impl Equilibrium {
             let arm = rotation * body.center_of_mass / length;
             let first = self.layout.nodes[node].unknown;
             let motions = (0..6).map(|i| (first + i, Vector6::ith(i, 1.0))).collect();
-            lumps.push(Lump::new(body.mass / unit, &arm, &inertia, pose.position, motions));
+            let lump = Lump::new(body.mass / unit, &arm, &inertia, pose.position, motions);
+            lumps.push(Lump { on_node: true, ..lump });
         }
         for mass in &self.model.masses {
             let beam = mass.point.beam.0;
@@ -107,7 +139,10 @@ impl Equilibrium {
             let motions = self.node_motions(span, own, e, node);
             let rotation = &own.list[e].rotations[node];
             let inertia = rotation * mass.inertia * rotation.transpose() / (unit * length * length);
-            lumps.push(Lump::new(mass.mass / unit, &V::zeros(), &inertia, place, motions));
+            let lump = Lump::new(mass.mass / unit, &V::zeros(), &inertia, place, motions);
+            // Where beams or bodies meet it is a load of the node.
+            let near = |jump: &crate::lower::Jump| jump.load.outward.is_some() && (jump.s - s).abs() <= tiny;
+            lumps.push(Lump { on_node: !self.lowered.spans[span].jumps.iter().any(near), ..lump });
         }
         lumps.retain(|lump| lump.block != Matrix6::zeros());
         lumps

@@ -28,6 +28,7 @@ mod mass;
 mod rule;
 mod shape;
 mod tail;
+mod tendon;
 
 pub use shape::Swing;
 

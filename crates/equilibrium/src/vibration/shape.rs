@@ -63,12 +63,11 @@ impl Equilibrium {
 
     /// Why this version has no stiffness and inertia of the mechanism; None where it has.
     pub fn without_vibration(&self) -> Option<String> {
-        if let Some(tubes) = self.model.tubes.first() {
-            return Some(format!("tubes.{}: the inertia of concentric tubes is not built yet", tubes.name));
-        }
-        let span = self.lowered.spans.iter().find(|span| !span.channels.is_empty())?;
-        let beam = &self.model.beams[span.beam].name;
-        Some(format!("beam.{beam}: the vibration of a beam with tendons in channels is not built yet"))
+        let tubes = self.model.tubes.first()?;
+        Some(format!(
+            "tubes.{}: concentric tubes turn within each other, and the modes of such a bundle are not built yet",
+            tubes.name
+        ))
     }
 
     /// What moves most in a vector of the pencil, by its path.

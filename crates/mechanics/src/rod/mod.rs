@@ -12,7 +12,7 @@ pub mod tubes;
 
 pub use compiled::{RodKernel, TubeKernel, advance, advance_tendons, advance_tubes};
 pub use constitutive::{Coupled, Law, Shearable, Slender};
-pub use foundation::{Foundation, FoundationSample, Resistance};
+pub use foundation::{Foundation, FoundationSample, Resistance, Spinning};
 pub use propagate::{LawTable, LoadSample, Piece, RodState};
 pub use tendon::{Channel, ChannelSample, Tension, rod_share};
 pub use tubes::{Guided, TUBES, Tube, TubePiece, TubeState};

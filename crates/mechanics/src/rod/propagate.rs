@@ -216,6 +216,9 @@ impl<L: Law, const W: usize> Rate<FULL_ROWS, W> for Founded<'_, L, W> {
         };
         let (mut dead, section) = sample.localised(*load, r0, dtheta);
         dead[0] = add(&dead[0], &self.footing.force(step, stage, &[y[4], y[5], y[6]]));
+        if let Some(moment) = self.footing.moment(step, stage, &q) {
+            dead[1] = add(&dead[1], &moment);
+        }
         wrench_rate(&rate, &q, &r, &along, &force, &dead, &section)
     }
 }
@@ -251,7 +254,7 @@ fn run<L: Law, const W: usize>(piece: &Piece, laws: &[L], load: f64, state: &mut
     let loaded = Loaded { laws, samples: &piece.loads, load, r0, dtheta: dtheta0 };
     let (pose, force, moment) = if let Some(foundation) = &piece.foundation {
         let start = (state.position, state.rows(3));
-        let footing = Footing { foundation, r0, dtheta: dtheta0, start };
+        let footing = Footing { foundation, r0, dtheta: dtheta0, start, load };
         through(piece, &force0, &moment0, &Founded { loaded, footing })
     } else if piece.loads.is_empty() {
         let system = Unloaded { laws, force: force0, moment: moment0 };

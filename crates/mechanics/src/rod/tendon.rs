@@ -133,6 +133,7 @@ fn run<const W: usize>(
             r0,
             dtheta,
             start: (state.position, state.rows(3)),
+            load,
         }),
         scratch: RefCell::new(Scratch { section: Section { tendons, pull: None }, lengths }),
     };
@@ -211,6 +212,9 @@ impl<const W: usize> Rate<FULL_ROWS, W> for Tendoned<'_, W> {
         let (mut dead, section) = sample.localised(self.load, &self.r0, &self.dtheta);
         if let Some(footing) = &self.footing {
             dead[0] = add(&dead[0], &footing.force(step, stage, &[y[4], y[5], y[6]]));
+            if let Some(moment) = footing.moment(step, stage, &q) {
+                dead[1] = add(&dead[1], &moment);
+            }
         }
         wrench_rate(&rate, &q, &total.r, &along, &force, &dead, &section)
     }

@@ -133,6 +133,13 @@ impl Model {
         if let Some(spin) = &self.spin {
             issues.finite("spin.rate", spin.rate);
             issues.finite_vector("spin.through", &spin.through);
+            for mass in self.masses.iter().filter(|mass| mass.inertia != Matrix3::zeros()) {
+                issues.add_with_hint(
+                    format!("mass.{}.inertia", mass.name),
+                    "a lumped mass that resists turning does not spin yet",
+                    "make it a body that a beam's end holds, or leave out `inertia`",
+                );
+            }
             if (spin.axis.norm() - 1.0).is_nan() || (spin.axis.norm() - 1.0).abs() > 1e-9 {
                 issues.add("spin.axis", "must be a unit vector");
             }

@@ -4,7 +4,7 @@ use crate::document::{finite, parameters};
 use crate::trace::{cell, headed, inside, line, parameter_of};
 use crate::{Named, OutputError};
 use flexura_model::Model;
-use flexura_solution::{Followed, ModesAlong};
+use flexura_solution::{Followed, ModesAlong, Onset};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -39,6 +39,23 @@ pub struct FrequenciesDocument {
 pub struct FrequencyBranch {
     /// Its points in order.
     pub points: Vec<FrequencyPoint>,
+    /// Where along it modes begin to grow, or end, in order.
+    pub onsets: Vec<OnsetDocument>,
+}
+
+/// Where the number of modes that grow changes.
+#[derive(Clone, Debug, Serialize)]
+pub struct OnsetDocument {
+    /// Value of the parameter.
+    pub parameter: f64,
+    /// "flutter" (what grows swings) or "divergence" (it does not).
+    pub kind: String,
+    /// Do more grow beyond, along the branch?
+    pub begins: bool,
+    /// Circular frequency there, rad/s; zero of a divergence.
+    pub rate: f64,
+    /// Estimated relative error of the value.
+    pub error_estimate: f64,
 }
 
 /// A point of the path.
@@ -87,7 +104,8 @@ pub fn frequencies_document(model: &Model, along: &ModesAlong) -> Result<Frequen
         })
     };
     let mut branches = Vec::with_capacity(trace.branches.len());
-    for (b, (branch, rows)) in trace.branches.iter().zip(&along.followed).enumerate() {
+    let met = along.onsets.iter().map(Vec::as_slice).chain(std::iter::repeat(&[][..]));
+    for (b, ((branch, rows), met)) in trace.branches.iter().zip(&along.followed).zip(met).enumerate() {
         let mut points = Vec::with_capacity(branch.points.len());
         for (p, (point, row)) in branch.points.iter().zip(rows).enumerate() {
             let path = format!("branches[{b}].points[{p}]");
@@ -102,7 +120,9 @@ pub fn frequencies_document(model: &Model, along: &ModesAlong) -> Result<Frequen
                 modes,
             });
         }
-        branches.push(FrequencyBranch { points });
+        let onsets =
+            met.iter().map(|own| onset(own).map_err(|error| inside(&format!("branches[{b}]"), error)));
+        branches.push(FrequencyBranch { points, onsets: onsets.collect::<Result<_, _>>()? });
     }
     Ok(FrequenciesDocument {
         flexura: env!("CARGO_PKG_VERSION").to_owned(),
@@ -115,6 +135,16 @@ pub fn frequencies_document(model: &Model, along: &ModesAlong) -> Result<Frequen
         range: trace.range,
         parameters: parameters(model)?,
         branches,
+    })
+}
+
+fn onset(own: &Onset) -> Result<OnsetDocument, OutputError> {
+    Ok(OnsetDocument {
+        parameter: finite(own.parameter, || "onset".into())?,
+        kind: own.kind.word().to_owned(),
+        begins: own.begins,
+        rate: finite(own.rate, || "onset.rate".into())?,
+        error_estimate: finite(own.error_estimate, || "onset.error_estimate".into())?,
     })
 }
 

@@ -4,7 +4,7 @@ mod along;
 mod wire;
 
 pub use along::{
-    FrequenciesDocument, FrequencyBranch, FrequencyDocument, FrequencyPoint, frequencies_csv,
+    FrequenciesDocument, FrequencyBranch, FrequencyDocument, FrequencyPoint, OnsetDocument, frequencies_csv,
     frequencies_document,
 };
 pub use wire::{ModesDocument, VibrationDocument};

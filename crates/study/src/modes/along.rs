@@ -5,12 +5,13 @@
 //! R. J. Allemang, *Sound and Vibration* 37 (2003) 14). So frequencies that cross keep their names, and those that only come near (veer)
 //! exchange their shapes gradually.
 
-use super::{Bench, Spectrum, Trouble, explain, reading, refuse, spectrum};
+use super::onset::Sight;
+use super::{Bench, Spectrum, Trouble, explain, onset, reading, refuse, spectrum};
 use crate::{ModelFamily, Options, Prepared, ProblemError, TraceProgress, trace};
 use flexura_equilibrium::{Equilibrium, Footing};
 use flexura_model::{Model, ModesPath, ModesStudy, TraceStudy};
 use flexura_nonlinear::{Breakdown, PathOptions};
-use flexura_solution::{Followed, ModesAlong, PointKind, Solution, Status, Trace, TracePoint};
+use flexura_solution::{Followed, ModesAlong, PointKind, Solution, Status, Trace};
 
 /// Sections along each beam of the shapes from which points are found again.
 const SECTIONS: usize = 33;
@@ -46,11 +47,14 @@ pub fn modes_along(
     let mut trace = trace(model, &way, &shaped, &mut |told| progress(told))?;
     let mut walk = Walk { model, study, options, prepared: None, near: None, bench: Bench::default() };
     let mut followed = Vec::with_capacity(trace.branches.len());
+    let mut onsets = Vec::with_capacity(trace.branches.len());
     let mut astray = 0;
     for branch in &trace.branches {
         let mut tracks = Tracks::default();
         let mut list = Vec::with_capacity(branch.points.len());
         let mut last: Option<&Solution> = None;
+        let mut before: Option<(f64, Sight)> = None;
+        let mut met = Vec::new();
         for point in &branch.points {
             if options.interrupt.is_raised() {
                 list.push(Vec::new());
@@ -59,28 +63,37 @@ pub fn modes_along(
             let own = point.solution.as_deref().or(point.shape.as_deref());
             last = own.or(last);
             let found = match last {
-                Some(from) => walk.at(path.parameter, point, from)?,
+                Some(from) => walk.at(path.parameter, point.parameter, from)?,
                 None => None,
             };
-            list.push(match found {
-                Some((spectrum, signatures)) => {
-                    let row = reading::rates(spectrum);
-                    let grow = row.iter().filter(|mode| mode.growth > 0.0).count();
-                    let counted = point.unstable_directions.filter(|_| spectrum.has_energy);
-                    astray += usize::from(counted.is_some_and(|counted| counted.min(row.len()) != grow));
-                    tracks.carry_on(row, signatures)
-                }
-                None => Vec::new(),
-            });
+            let Some((spectrum, signatures)) = found else {
+                list.push(Vec::new());
+                continue;
+            };
+            let row = reading::rates(spectrum);
+            let sight = Sight::of(spectrum);
+            let counted = point.unstable_directions.filter(|_| spectrum.has_energy);
+            astray += usize::from(counted.is_some_and(|counted| counted.min(row.len()) != sight.growing()));
+            list.push(tracks.carry_on(row, signatures));
+            if let (Some((value, other)), Some(from)) = (&before, last)
+                && sight.growing() != other.growing()
+                && *value != point.parameter
+            {
+                met.extend(onset::locate([*value, point.parameter], [other, &sight], &mut |value| {
+                    Ok(walk.at(path.parameter, value, from)?.map(|(spectrum, _)| Sight::of(spectrum)))
+                })?);
+            }
+            before = Some((point.parameter, sight));
         }
         followed.push(list);
+        onsets.push(met);
     }
     if options.interrupt.is_raised() && trace.status == Status::Converged {
         trace.status = Status::Interrupted;
         trace.reason = Some("interrupted before all modes were found".to_string());
     }
     warn(&mut trace, &followed, astray);
-    Ok(ModesAlong { trace, followed })
+    Ok(ModesAlong { trace, followed, onsets })
 }
 
 fn warn(trace: &mut Trace, followed: &[Vec<Vec<Option<Followed>>>], astray: usize) {
@@ -113,15 +126,15 @@ struct Walk<'a> {
 type Seen<'s> = (&'s Spectrum, Vec<Vec<f64>>);
 
 impl Walk<'_> {
-    /// The modes at a point of the path, found again from its shape, with what tells their shapes; None where the point is critical.
+    /// The modes at a value of the parameter, found again from a shape nearby, with what tells their shapes; None where the point is critical.
     fn at(
         &mut self,
         parameter: usize,
-        point: &TracePoint,
+        value: f64,
         from: &Solution,
     ) -> Result<Option<Seen<'_>>, ProblemError> {
         use crate::Family;
-        let model = ModelFamily::new(self.model).model(&[(parameter, point.parameter)])?;
+        let model = ModelFamily::new(self.model).model(&[(parameter, value)])?;
         if let Some(prepared) = &mut self.prepared {
             prepared.adopt(&model)?;
         } else {

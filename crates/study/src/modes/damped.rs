@@ -10,7 +10,7 @@
 //! that tells vectors apart. Time is measured by `pace`, so that x and v/pace are of one size.
 
 use super::pencil::Trouble;
-use super::unsymmetric::{Operator, Wave, largest};
+use super::unsymmetric::{Operator, Ritz, Wave, largest};
 use flexura_equilibrium::Vibration;
 use flexura_nonlinear::{Breakdown, Matrix};
 use nalgebra::{Complex, DVector};
@@ -24,8 +24,10 @@ const NOTHING: f64 = 1e-12;
 /// Part that must be left of a motion without stiffness beside others for it to be another.
 const NEW: f64 = 1e-3;
 /// Vectors of the largest space, besides so many for each s.
-const MOST: usize = 60;
-const PER: usize = 8;
+const MOST: usize = 50;
+const PER: usize = 12;
+/// |s| beside the largest that was found below which a motion may have no stiffness.
+const FREE: f64 = 1e-5;
 /// Tries of a shift that is no s.
 const SHIFTS: usize = 5;
 
@@ -107,8 +109,8 @@ pub fn slowest(vibration: &Vibration, count: usize, sigma: f64) -> Result<Vec<Wa
         }
         tries += 1;
     };
-    let wanted = 2 * (count + 2);
-    let found = largest(companion, wanted, (MOST + PER * wanted).min(2 * vibration.size))?;
+    let most = (MOST + PER * count).min(2 * vibration.size);
+    let found = largest(companion, 2 * count, most, &|found| are_lowest(found, count, shift))?;
     let mut waves = Vec::new();
     for (theta, [mut x, mut aside]) in found {
         let mut s = Complex::new(shift, 0.0) + Complex::new(1.0, 0.0) / theta;
@@ -134,6 +136,17 @@ pub fn slowest(vibration: &Vibration, count: usize, sigma: f64) -> Result<Vec<Wa
     waves.retain(|wave| wave.square.norm_sqr() > 0.0 || is_new(&mut free, &wave.vector[0]));
     waves.truncate(count + free.len());
     Ok(waves)
+}
+
+/// Are `count` of these the lowest by their size, whatever lies farther from the shift?
+fn are_lowest(found: &[Ritz], count: usize, shift: f64) -> bool {
+    let s = |ritz: &Ritz| Complex::new(shift, 0.0) + Complex::new(1.0, 0.0) / ritz.0;
+    let Some(last) = found.last() else { return false };
+    let reach = 1.0 / last.0.re.hypot(last.0.im) - shift;
+    let inside = found.iter().map(s).filter(|s| s.im >= 0.0 && s.re.hypot(s.im) <= reach);
+    // Both s of motions without stiffness may be among them.
+    let free = inside.clone().filter(|s| s.re.hypot(s.im) < FREE * reach).count();
+    inside.count() >= count + free
 }
 
 /// Both s of a motion without stiffness are nothing, and it counts once.

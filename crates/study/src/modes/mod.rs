@@ -6,6 +6,7 @@
 
 mod along;
 mod damped;
+mod onset;
 mod pencil;
 mod reading;
 mod space;
@@ -39,6 +40,12 @@ const NOTHING: f64 = 1e-12;
 const FAINT: f64 = 1e-6;
 /// Relative difference between two shifts up to which a small ω² is something.
 const SURE: f64 = 1e-3;
+/// Shift beside the lowest |s| where something damps or spins.
+const SHIFT: f64 = 0.3;
+/// Relative distance of two ω² from which on they are compared as a pair.
+const MEETING: f64 = 1e-2;
+/// Of how many modes a verdict of stability looks.
+const LOOKED_AT: usize = 6;
 /// Rounds in which motions without stiffness make room for others.
 const ROUNDS: usize = 3;
 /// Tolerance of the equilibrium, if that is less than what was asked for.
@@ -159,6 +166,15 @@ fn refuse(problem: &Equilibrium) -> Result<(), ProblemError> {
         }
         None => Ok(()),
     }
+}
+
+/// How many of the lowest modes about the present equilibrium grow; None where no inertia decides.
+pub(crate) fn unstable_by_motion(problem: &mut Equilibrium) -> Option<usize> {
+    if problem.without_vibration().is_some() {
+        return None;
+    }
+    let found = spectrum(problem, &mut Bench::default(), LOOKED_AT, None).ok()?;
+    Some(onset::Sight::of(&found).growing())
 }
 
 /// What was found at one state.
@@ -282,7 +298,7 @@ impl Found {
             other => other,
         };
         let waves = if is_quadratic {
-            damped::slowest(&vibration, count, start.below.abs().sqrt()).map_err(named)?
+            damped::slowest(&vibration, count, SHIFT * start.below.abs().sqrt()).map_err(named)?
         } else if has_energy {
             let pairs = counted(&vibration, bench, count, start).map_err(named)?;
             let real = |(square, x): Pair| Wave {
@@ -307,10 +323,32 @@ impl Found {
         self.waves.iter().filter(|wave| wave.square == Complex::new(0.0, 0.0)).count()
     }
 
+    /// Two that meet where nothing makes them real are very sensitive, but their mean and the square of their difference are not.
+    fn error_of_meeting(&self, i: usize, before: &Self) -> Option<f64> {
+        let z = |wave: &Wave| wave.square;
+        let size = |z: Complex<f64>| z.re.hypot(z.im);
+        let own = z(&self.waves[i]);
+        let others = self.waves.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, wave)| z(wave));
+        let other = others.min_by(|a, b| size(*a - own).total_cmp(&size(*b - own)))?;
+        if self.has_energy || size(own) == 0.0 || size(own - other) > MEETING * size(own) {
+            return None;
+        }
+        let pair = |a: Complex<f64>, b: Complex<f64>| ((a + b) * 0.5, (a - b) * (a - b) * 0.25);
+        let (mean, square) = pair(own, other);
+        let mut list: Vec<Complex<f64>> = before.waves.iter().map(z).collect();
+        list.sort_by(|a, b| size(*a - mean).total_cmp(&size(*b - mean)));
+        let [a, b, ..] = list[..] else { return None };
+        let (mean_before, square_before) = pair(a, b);
+        Some((size(mean - mean_before) + size(square - square_before) / size(mean)) / size(mean))
+    }
+
     /// Relative differences of ω².
     fn errors(&self, before: &Self) -> Vec<f64> {
-        let each = self.waves.iter().map(|wave| {
+        let each = self.waves.iter().enumerate().map(|(i, wave)| {
             let size = wave.square.norm_sqr().sqrt();
+            if let Some(error) = self.error_of_meeting(i, before) {
+                return error;
+            }
             let apart = |other: &Wave| (other.square - wave.square).norm_sqr().sqrt();
             let nearest = before.waves.iter().map(apart).fold(f64::INFINITY, f64::min);
             if size == 0.0 { 0.0 } else { nearest / size }

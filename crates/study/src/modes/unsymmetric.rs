@@ -94,7 +94,8 @@ impl Operator for Inverse<'_> {
 
 /// The `count` ω² nearest to σ, those of a conjugate pair both counted, and their vectors.
 pub fn nearest(vibration: &Vibration, count: usize, sigma: f64) -> Result<Vec<Wave>, Trouble> {
-    let found = largest(Inverse::new(vibration, sigma)?, count, vibration.size)?;
+    let is_enough = |found: &[Ritz]| found.len() >= count;
+    let found = largest(Inverse::new(vibration, sigma)?, count, vibration.size, &is_enough)?;
     let wave = |(theta, vector): Ritz| {
         let mut square = Complex::new(sigma, 0.0) + Complex::new(1.0, 0.0) / theta;
         if square.im.abs() <= REAL * square.re.abs() {
@@ -108,9 +109,14 @@ pub fn nearest(vibration: &Vibration, count: usize, sigma: f64) -> Result<Vec<Wa
 /// An eigenvalue of an operator with its vector, real and imaginary parts.
 pub(super) type Ritz = (Complex<f64>, [Vec<f64>; 2]);
 
-/// The `count` largest eigenvalues of an operator with their vectors, those of a conjugate pair both counted; fewer where there are
-/// no more, or where a space of `most` vectors shows no more.
-pub(super) fn largest<O: Operator>(operator: O, count: usize, most: usize) -> Result<Vec<Ritz>, Trouble> {
+/// The largest eigenvalues of an operator with their vectors, those of a conjugate pair both counted, until there are enough; fewer
+/// where there are no more, or where a space of `most` vectors shows no more. The first look is at `count` and two vectors more.
+pub(super) fn largest<O: Operator>(
+    operator: O,
+    count: usize,
+    most: usize,
+    is_enough: &dyn Fn(&[Ritz]) -> bool,
+) -> Result<Vec<Ritz>, Trouble> {
     let mut space = Space { operator, vectors: Vec::new(), heavy: Vec::new(), images: Vec::new(), next: 0 };
     let (mut dead, mut since) = (0, 0);
     loop {
@@ -124,9 +130,10 @@ pub(super) fn largest<O: Operator>(operator: O, count: usize, most: usize) -> Re
         if exhausted || since >= LOOK && space.vectors.len() > count + 2 {
             since = 0;
             let open = space.open();
-            let found = project(&space.heavy, &space.images, &open, count).ok_or(Trouble::Missing)?;
-            if found.len() >= count || exhausted {
-                return Ok(found);
+            match project(&space.heavy, &space.images, &open, is_enough) {
+                Some(found) if exhausted || is_enough(&found) => return Ok(found),
+                None if exhausted => return Err(Trouble::Missing),
+                _ => {}
             }
         }
     }
@@ -199,7 +206,7 @@ fn project(
     heavy: &[DVector<f64>],
     images: &[DVector<f64>],
     open: &[(usize, f64)],
-    count: usize,
+    is_enough: &dyn Fn(&[Ritz]) -> bool,
 ) -> Option<Vec<Ritz>> {
     let m = images.len();
     let small = DMatrix::from_fn(m, m, |i, j| heavy[i].dot(&images[j]));
@@ -208,10 +215,10 @@ fn project(
     let mut found = Vec::new();
     for theta in all {
         let size = theta.re.hypot(theta.im);
-        if found.len() >= count || size == 0.0 {
+        if size == 0.0 || is_enough(&found) {
             break;
         }
-        let weights = eigenvector(&small, theta)?;
+        let Some(weights) = eigenvector(&small, theta) else { break };
         let missed: f64 = open.iter().map(|(j, length)| weights[*j].re.hypot(weights[*j].im) * length).sum();
         if missed > RESIDUAL * size {
             break;

@@ -126,7 +126,10 @@ pub fn trace_family(
         trace.critical = critical::follow(&mut traced, &mut follower, wanted, &mut collection);
     }
     let counts = traced.problem().counts();
-    trace.stability_reason = traced.undecided.take();
+    match traced.undecided.take() {
+        Some(reason) if traced.by_motion => trace.warnings.push(crate::solve::by_motion(&reason)),
+        reason => trace.stability_reason = reason,
+    }
     trace.warnings.append(&mut collection.warnings);
     trace.work = TraceWork {
         points: collection.branches.iter().map(|branch| branch.points.len()).sum(),

@@ -3,7 +3,7 @@
 use super::TraceProgress;
 use super::ends::{kind, stalled, why_short};
 use super::problem::{Snapshot, Traced};
-use super::record::{Reader, Reading, crossing, regular};
+use super::record::{Reader, Reading, crossing, decide, regular};
 use flexura_continuation::{Advance, Place, Point, Special, Stall, Tangent, Walker, between, sharpen};
 use flexura_model::{Stop, TraceStudy};
 use flexura_nonlinear::{Interrupt, System};
@@ -124,6 +124,7 @@ impl Follower<'_> {
         let from_start = matches!(first, First::Start);
         let mut point =
             regular(traced.axes[0].value(start.point.parameters[0]), &start, before.clone(), error);
+        decide(traced, &mut point);
         match first {
             First::Start => {
                 point.kind = PointKind::End;
@@ -229,6 +230,7 @@ impl Follower<'_> {
             if let Some(place) = last {
                 let _ = place.point.restore(traced);
                 let mut point = regular(traced.axes[0].value(limit), &place, reading, error);
+                decide(traced, &mut point);
                 point.kind = PointKind::End;
                 self.keep(traced, walker, &mut point);
                 leg.points.push(point);
@@ -254,6 +256,7 @@ impl Follower<'_> {
                 (start_at, since_start) = (leg.points.len(), 0);
             }
             let mut point = regular(traced.axes[0].value(scaled), &here, reading.clone(), error);
+            decide(traced, &mut point);
             since_kept += 1;
             if since_kept == KEPT {
                 since_kept = 0;
@@ -555,6 +558,7 @@ impl Follower<'_> {
             let reading = self.read(traced, walker);
             let value = traced.axes[0].value(place.point.parameters[0]);
             let mut point = TracePoint { arc: walker.arc_at(part), ..regular(value, &place, reading, error) };
+            decide(traced, &mut point);
             self.reader.add_shape(traced, &mut point);
             leg.points.push(point);
         }

@@ -42,6 +42,10 @@ pub(crate) struct Traced<'a> {
     line: Option<Line>,
     /// Why stability is not decided.
     pub undecided: Option<String>,
+    /// Do modes decide where that is so?
+    pub by_motion: bool,
+    /// Has it been seen that they do not?
+    pub is_massless: bool,
     /// Is the second parameter another one than the first?
     pub both: bool,
 }
@@ -71,8 +75,18 @@ impl<'a> Traced<'a> {
         parameters: Parameters,
         both: bool,
     ) -> Self {
-        let mut this =
-            Self { prepared, family, axes, parameters, laws: Vec::new(), line: None, undecided: None, both };
+        let mut this = Self {
+            prepared,
+            family,
+            axes,
+            parameters,
+            laws: Vec::new(),
+            line: None,
+            undecided: None,
+            by_motion: false,
+            is_massless: false,
+            both,
+        };
         this.find_line();
         this
     }

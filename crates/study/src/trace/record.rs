@@ -1,7 +1,7 @@
 //! Points of a path as they are reported.
 
 use super::problem::Traced;
-use crate::solve::CRITICAL;
+use crate::solve::{CRITICAL, SPINS};
 use flexura_continuation::{Crossing as Met, Place};
 use flexura_equilibrium::Equilibrium;
 use flexura_model::{BeamPoint, Output, ProbeTarget, Target};
@@ -204,4 +204,19 @@ pub(crate) fn regular(value: f64, place: &Place, reading: Reading, error: f64) -
         shape: None,
         directions: Vec::new(),
     }
+}
+
+/// Where no energy says whether the present state is stable, its lowest modes do, if it has an inertia.
+pub(crate) fn decide(traced: &mut Traced<'_>, point: &mut TracePoint) {
+    let is_held = traced.problem().spins() && point.unstable_directions.is_some_and(|count| count > 0);
+    if is_held {
+        traced.undecided.get_or_insert_with(|| SPINS.to_string());
+    } else if traced.undecided.is_none() || point.unstable_directions.is_some() || traced.is_massless {
+        return;
+    }
+    let count = crate::modes::unstable_by_motion(traced.problem());
+    traced.is_massless |= count.is_none();
+    traced.by_motion |= count.is_some();
+    point.unstable_directions = count;
+    point.stable = count.map(|count| count == 0);
 }

@@ -5,6 +5,7 @@ mod clamped_clamped;
 mod columns;
 mod contact;
 mod curves;
+mod damping;
 mod deep_arch;
 mod elastica;
 mod ends;
@@ -33,6 +34,7 @@ mod rolling;
 mod sideways;
 mod slide_law;
 mod snaps;
+mod spinning;
 mod spring;
 mod state_space;
 mod strip;
@@ -87,6 +89,8 @@ pub fn cases() -> Vec<Case> {
         &modes_of_mechanisms::CASES,
         &state_space::CASES,
         &flutter::CASES,
+        &damping::CASES,
+        &spinning::CASES,
         &motion::CASES,
         &rolling::CASES,
         &contact::CASES,

@@ -9,7 +9,7 @@ use flexura_model::{Section, Shape};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-pub const CASES: [Case; 2] = [
+pub const CASES: [Case; 3] = [
     Case {
         id: "modes_of_flexures",
         title: "Modes of a cross-spring pivot that carries a body, of a parallelogram stage, of a right-angle cantilever",
@@ -24,6 +24,16 @@ pub const CASES: [Case; 2] = [
         citation: TWO_METHODS,
         needed: "2e-8, to which the references are known to agree",
         run: platform,
+        closed_form: None,
+    },
+    Case {
+        id: "modes_with_tendons",
+        title: "Modes of an inextensible cantilever with tendons in channels: one of given tension along the axis changes nothing; one of given \
+                length beside it keeps the tip from turning; two of given tension on both sides of the axis change nothing either",
+        citation: "the length of a tendon is L + d θ(L) where the axis does not stretch: clamped-free and clamped-guided bars of Blevins \
+                   (1979), table 8-1",
+        needed: "1e-8",
+        run: tendons,
         closed_form: None,
     },
 ];
@@ -147,5 +157,24 @@ fn platform() -> Result<Vec<Row>, String> {
             rows.push(Row::absolute(format!("place {}, {name}", ["x", "y", "z"][axis]), *wanted, ours, 1e-8));
         }
     }
+    Ok(rows)
+}
+
+fn tendons() -> Result<Vec<Row>, String> {
+    let rod = "[section.rod]\nshape = \"stiffness\"\nGJ = 1e4\nEI2 = 1e4\nEI3 = 1\nmass_per_length = 1\n[beam.rod]\nsection = \"rod\"\n\
+               length = 1\nextension = false\nstart = { body = \"ground\", hold = \"clamp\" }\n";
+    let cable = |name: &str, law: &str, offset: f64| {
+        format!(
+            "[cable.{name}]\n{law}\nroute = [{{ beam = \"rod\", from = 0, to = 1, offset = [{offset:?}, 0] }}]\n"
+        )
+    };
+    let free = [3.5160152685, 22.034491565, 61.697214414];
+    let guided = [5.593321362, 30.225847932, 74.638883825];
+    let along = found(&format!("{rod}{}", cable("axis", "tension = 5", 0.0)), 3)?;
+    let mut rows = compared("tension along the axis", &along, &free, 1.0);
+    let sides = [cable("up", "tension = 5", 0.05), cable("down", "tension = 5", -0.05)].concat();
+    rows.extend(compared("tension on both sides", &found(&format!("{rod}{sides}"), 3)?, &free, 1.0));
+    let held = found(&format!("{rod}{}", cable("side", "length = 1", 0.05)), 3)?;
+    rows.extend(compared("length beside the axis", &held, &guided, 1.0));
     Ok(rows)
 }

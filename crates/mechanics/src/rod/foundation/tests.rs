@@ -15,7 +15,16 @@ fn foundation(length: f64, steps: usize) -> Foundation {
     let law = |text: &str| Resistance { force: Function::parse(text, "u").unwrap(), length: 0.5, unit: 1.6 };
     let along = |a: f64| places.iter().map(|s| [(a + s).cos(), (a + s).sin(), 0.0]).collect();
     let (first, second) = (law("2*u + 5*u^3"), law("-1.5*sin(u) + 0.3*u"));
-    Foundation { samples: samples.collect(), resistances: vec![(first, along(0.3)), (second, along(1.9))] }
+    let spin = Spinning {
+        axis: [0.6, 0.0, 0.8],
+        through: [0.3, -0.1, 0.2],
+        inertia: places.iter().map(|s| (1.5 + s, [0.3, 0.1 + 0.1 * s, 0.2])).collect(),
+    };
+    Foundation {
+        samples: samples.collect(),
+        resistances: vec![(first, along(0.3)), (second, along(1.9))],
+        spin: Some(spin),
+    }
 }
 
 fn on_foundation(piece: Piece) -> Piece {
@@ -83,6 +92,7 @@ fn a_foundation_without_stiffness_is_none() {
         let mut empty = foundation(plain.length, plain.steps);
         empty.samples.iter_mut().for_each(|sample| sample.stiffness = [[0.0; 3]; 3]);
         empty.resistances.clear();
+        empty.spin = None;
         let founded = Piece { foundation: Some(empty), ..plain.clone() };
         let (mut a, mut b): (RodState<1>, RodState<1>) = (start(), start());
         advance(&plain, 0.8, &mut a);
