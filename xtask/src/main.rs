@@ -16,10 +16,12 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "chores talk to a terminal")]
 
 mod campaign;
+mod dependencies;
 mod generate;
 mod layers;
 mod live;
 mod map;
+mod prose;
 mod python;
 mod step;
 mod test;

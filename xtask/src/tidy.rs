@@ -1,13 +1,15 @@
 //! The checks that compile nothing of ours.
 
 use crate::step::{Outcome, Step, check, exists};
-use crate::{layers, map};
+use crate::{dependencies, layers, map, prose};
 
 pub fn run() -> Outcome {
     Step::new("format", "cargo fmt --all --check").run()?;
     check("floors: a room imports only from rooms below it", "tidy", layers::check)?;
     check("map: docs/architecture.md lists the rooms", "tidy", map::check_rooms)?;
     check("links in the documentation", "tidy", map::check_links)?;
+    check("prose wraps", "tidy", prose::check_width)?;
+    check("dependencies are used", "tidy", dependencies::check_use)?;
     check("lengths of files", "tidy", map::warn_of_long_files)?;
     check("one nalgebra", "tidy", one_nalgebra)?;
     if exists("cargo deny --version") {
