@@ -74,6 +74,7 @@ mod tests {
         let load = PointLoad {
             dead: Wrench::new(Vector3::new(1.0, 2.0, 3.0), Vector3::new(0.5, 0.0, -1.0)),
             follower: Wrench::new(Vector3::new(-2.0, 0.3, 1.0), Vector3::new(0.1, 0.9, 0.4)),
+            outward: None,
         };
         let rotation = exp(&Vector3::new(0.4, 0.2, -1.0));
         let d = Vector3::new(0.2, -0.6, 0.3);

@@ -1,9 +1,9 @@
 //! Modes of what damps and spins, and where flutter sets in, of models made in code.
 
 use flexura_model::{
-    At, Beam, BeamId, BeamPoint, BeamTheory, Body, CoordinateLaw, Curve, End, Frame, Joint, JointKind,
-    JointLaw, Load, LoadFrame, LoadTarget, Model, ModesPath, ModesStudy, Mount, Parameter, PointMass,
-    Profile, Section, SectionFrame, SectionId, Shape, Spin,
+    At, Beam, BeamId, BeamPoint, BeamTheory, Body, Cable, CableLaw, CoordinateLaw, Curve, End, Frame, Guide,
+    Joint, JointKind, JointLaw, Load, LoadFrame, LoadTarget, Model, ModesPath, ModesStudy, Mount, Parameter,
+    PointMass, Profile, Section, SectionFrame, SectionId, Shape, Spin,
 };
 use flexura_solution::{Modes, ModesAlong, Onset, OnsetKind, Status};
 use flexura_spatial::{Matrix3, Pose, Vector3};
@@ -252,4 +252,37 @@ fn a_body_on_a_hinge_stands_and_swings_as_its_energy_says() {
     let found = found(&model, 1);
     close(found.solution.joints[0].coordinates[0], angle, 1e-9);
     close(found.modes[0].rate, (bent / (mass + b)).sqrt(), 1e-9);
+}
+
+/// The length of a tendon beside an axis that does not stretch is L + d θ(L): one of given tension changes nothing where another on the
+/// other side balances it, and one of given length keeps the tip from turning.
+#[test]
+fn tendons_in_channels_hold_the_tip_or_do_nothing() {
+    let tendon = |name: &str, law, offset: f64| Cable {
+        name: name.into(),
+        route: vec![Guide::Channel {
+            beam: BeamId(0),
+            between: [At::Fraction(0.0), At::Fraction(1.0)],
+            offset: [Profile::from(offset), Profile::from(0.0)],
+        }],
+        law,
+    };
+    let with = |cables: Vec<Cable>| {
+        let mut model = rod([1e4, 1.0], 1e4);
+        model.cables = cables;
+        found(&model, 3)
+    };
+    let free = [3.5160152685, 22.034491565, 61.697214414];
+    let guided = [5.593321362, 30.225847932, 74.638883825];
+    let sides =
+        vec![tendon("up", CableLaw::Tension(5.0), 0.05), tendon("down", CableLaw::Tension(5.0), -0.05)];
+    for (cables, wanted) in [
+        (vec![tendon("axis", CableLaw::Tension(5.0), 0.0)], free),
+        (sides, free),
+        (vec![tendon("side", CableLaw::Length(1.0), 0.05)], guided),
+    ] {
+        for (mode, wanted) in with(cables).modes.iter().zip(wanted) {
+            close(mode.rate, wanted, 1e-9);
+        }
+    }
 }
