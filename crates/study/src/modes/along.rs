@@ -75,6 +75,10 @@ pub fn modes_along(
             let counted = point.unstable_directions.filter(|_| spectrum.has_energy);
             astray += usize::from(counted.is_some_and(|counted| counted.min(row.len()) != sight.growing()));
             list.push(tracks.carry_on(row, signatures));
+            // At a critical point a mode neither grows nor swings; what sets in there lies between its neighbours.
+            if matches!(point.kind, PointKind::Fold | PointKind::Branch(_)) {
+                continue;
+            }
             if let (Some((value, other)), Some(from)) = (&before, last)
                 && sight.growing() != other.growing()
                 && *value != point.parameter

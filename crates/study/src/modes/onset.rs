@@ -172,6 +172,9 @@ fn zero(
     at: &mut dyn FnMut(f64) -> Result<Option<Look>, ProblemError>,
 ) -> Result<(f64, f64, f64), ProblemError> {
     let relative = |from: f64, to: f64| (to - from).abs() / from.abs().max(to.abs()).max(f64::MIN_POSITIVE);
+    if at_a.value == 0.0 {
+        return Ok((a, at_a.rate, NARROW));
+    }
     if (at_a.value > 0.0) == (at_b.value > 0.0) {
         return Ok((b, at_b.rate, relative(a, b)));
     }
