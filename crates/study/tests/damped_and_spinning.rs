@@ -1,5 +1,8 @@
 //! Modes of what damps and spins, and where flutter sets in, of models made in code.
 
+// Clippy takes helpers of tests for code that must not panic.
+#![allow(clippy::unwrap_used)]
+
 use flexura_model::{
     At, Beam, BeamId, BeamPoint, BeamTheory, Body, Cable, CableLaw, CoordinateLaw, Curve, End, Frame, Guide,
     Joint, JointKind, JointLaw, Load, LoadFrame, LoadTarget, Model, ModesPath, ModesStudy, Mount, Parameter,
