@@ -79,10 +79,11 @@ class StateSpace:
         return Linear(self.A, self.B, self.C, self.D)
 
     def to_control(self) -> Any:
-        """A ``control.StateSpace`` of python-control, with the names."""
+        """A ``control.StateSpace`` of python-control, with the names, in which it wants ``_`` for every dot."""
         import control
 
-        return control.ss(self.A, self.B, self.C, self.D, states=self.states, inputs=self.inputs, outputs=self.outputs)
+        states, inputs, outputs = ([name.replace(".", "_") for name in names] for names in (self.states, self.inputs, self.outputs))
+        return control.ss(self.A, self.B, self.C, self.D, states=states, inputs=inputs, outputs=outputs)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes ``.json``, ``.mat`` (MATLAB, ``scipy.io.loadmat``) or the frequency response as ``.svg``."""
