@@ -130,6 +130,7 @@ conforms!(
     modes_of_buckled_strips,
     modes_of_flexures,
     modes_of_a_platform,
+    state_space,
     modes_with_tendons,
     modes_without_energy,
     damped_modes,
