@@ -28,6 +28,8 @@ const MOST: usize = 50;
 const PER: usize = 12;
 /// |s| beside the largest that was found below which a motion may have no stiffness.
 const FREE: f64 = 1e-5;
+/// Other shifts, beside the first.
+const OTHERS: [f64; 4] = [2.3, 0.43, 5.1, 0.19];
 /// Tries of a shift that is no s.
 const SHIFTS: usize = 5;
 
@@ -99,6 +101,23 @@ impl Operator for Companion<'_> {
 /// The lowest s by their size, one of each conjugate pair: `count` and those of motions without stiffness, or as many as can be told.
 /// `sigma` is positive, and about as large as the lowest.
 pub fn slowest(vibration: &Vibration, count: usize, sigma: f64) -> Result<Vec<Wave>, Trouble> {
+    let (mut best, mut is_short) = about(vibration, count, sigma)?;
+    // From another shift the vectors of what is far from normal are others.
+    for factor in OTHERS {
+        if !is_short {
+            break;
+        }
+        let (waves, short) = about(vibration, count, factor * sigma)?;
+        is_short = short;
+        if !short || waves.len() > best.len() {
+            best = waves;
+        }
+    }
+    Ok(best)
+}
+
+/// The same from one shift, and whether a larger space might show more.
+fn about(vibration: &Vibration, count: usize, sigma: f64) -> Result<(Vec<Wave>, bool), Trouble> {
     let mut shift = sigma;
     let mut tries = 0;
     let companion = loop {
@@ -135,7 +154,8 @@ pub fn slowest(vibration: &Vibration, count: usize, sigma: f64) -> Result<Vec<Wa
     let mut free = Vec::new();
     waves.retain(|wave| wave.square.norm_sqr() > 0.0 || is_new(&mut free, &wave.vector[0]));
     waves.truncate(count + free.len());
-    Ok(waves)
+    let is_short = waves.len() < count + free.len() && most < 2 * vibration.size;
+    Ok((waves, is_short))
 }
 
 /// Are `count` of these the lowest by their size, whatever lies farther from the shift?

@@ -33,11 +33,13 @@ const BEYOND: f64 = 1.2;
 /// Relative difference of ω² at which two orders agree.
 const AGREE: f64 = 2e-10;
 /// The same from which a frequency is doubtful.
-const DOUBTFUL: f64 = 1e-6;
+const DOUBTFUL: f64 = 1e-8;
 /// ω² beside what cancels in it, from which on it is none.
 const NOTHING: f64 = 1e-12;
 /// ω² beside the largest found that may be nothing.
 const FAINT: f64 = 1e-6;
+/// Shift that is surely not nothing, nondimensional.
+const NEAREST: f64 = 1e-4;
 /// Relative difference between two shifts up to which a small ω² is something.
 const SURE: f64 = 1e-3;
 /// Shift beside the lowest |s| where something damps or spins.
@@ -45,7 +47,7 @@ const SHIFT: f64 = 0.3;
 /// Relative distance of two ω² from which on they are compared as a pair.
 const MEETING: f64 = 1e-2;
 /// Of how many modes a verdict of stability looks.
-const LOOKED_AT: usize = 6;
+const LOOKED_AT: [usize; 2] = [6, 3];
 /// Rounds in which motions without stiffness make room for others.
 const ROUNDS: usize = 3;
 /// Tolerance of the equilibrium, if that is less than what was asked for.
@@ -173,7 +175,9 @@ pub(crate) fn unstable_by_motion(problem: &mut Equilibrium) -> Option<usize> {
     if problem.without_vibration().is_some() {
         return None;
     }
-    let found = spectrum(problem, &mut Bench::default(), LOOKED_AT, None).ok()?;
+    // Where much damps, what creeps crowds in before the higher modes.
+    let found =
+        LOOKED_AT.iter().find_map(|count| spectrum(problem, &mut Bench::default(), *count, None).ok())?;
     Some(onset::Sight::of(&found).growing())
 }
 
@@ -210,7 +214,9 @@ fn spectrum(
     }
     let residual = if near.is_some() { FAIR } else { SHARP };
     let first = near.and_then(|near| ORDERS.iter().position(|order| *order == near.order)).unwrap_or(0);
-    for (round, &order) in ORDERS[first..].iter().chain(&ORDERS).enumerate() {
+    // Where the law changes within a small part of a wave, shorter elements of the highest order follow.
+    let rounds = ORDERS[first..].iter().chain(&ORDERS).chain(&[ORDERS[4]; 2]);
+    for (round, &order) in rounds.enumerate() {
         detail.order = order;
         let (mut start, source) = match (&before, near) {
             (Some(found), _) => (start(&found.waves, found.has_energy, residual), Some(&found.vibration)),
@@ -225,7 +231,7 @@ fn spectrum(
         for errors in [errors, compared].into_iter().flatten() {
             if errors.iter().all(|error| *error <= AGREE) || is_last {
                 let agree = errors.iter().all(|error| *error <= DOUBTFUL);
-                if agree || detail.phase < 0.6 * PHASE {
+                if agree || detail.phase < 0.2 * PHASE {
                     let exhausted = found.waves.len() < count + found.rigid();
                     let has_energy = found.has_energy;
                     let Found { vibration, waves, .. } = found;
@@ -264,7 +270,7 @@ fn shift_below(squares: &[f64]) -> f64 {
     // What may be nothing tells no distance.
     let faint = FAINT * squares.iter().map(|square| square.abs()).fold(0.0, f64::max);
     let next = squares.iter().map(|square| square.abs()).find(|square| *square > faint).unwrap_or(1.0);
-    if first < 1e300 { first - 0.3 * first.abs().max(next) } else { -1.0 }
+    if first < 1e300 { (first - 0.3 * first.abs().max(next)).min(-NEAREST) } else { -1.0 }
 }
 
 /// The lowest modes with elements of one kind.
@@ -376,7 +382,7 @@ fn counted(
         // From another shift round-off makes something else of nothing, and softness stays what it is.
         let below = pairs.first().map_or(0.0, |(square, _)| square.min(0.0));
         let next = pairs.iter().map(|(square, _)| *square).find(|square| *square > FAINT * scale);
-        let hint = 1.7 * below - 0.4 * next.unwrap_or(1.0);
+        let hint = (1.7 * below - 0.4 * next.unwrap_or(1.0)).min(-NEAREST);
         let again = Start { below: hint, vectors: Vec::new(), prove: true, residual: start.residual };
         let mut again = shifted.lowest(count + small, &again)?;
         settle_rigid(vibration, &mut again);

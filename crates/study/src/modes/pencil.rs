@@ -31,6 +31,10 @@ const NEW: f64 = 1e-9;
 const HELD: f64 = 1e-10;
 /// Tries of a shift that lies below everything.
 const SHIFTS: usize = 40;
+/// How many of them may be singular, by how much farther the next one lies, and how far at least.
+const SINGULAR: usize = 8;
+const FARTHER: f64 = 7.3;
+const STEP: f64 = 1e-3;
 /// Relative distance of ω² that count as two.
 const APART: f64 = 1e-7;
 /// The same beside their distance from the shift.
@@ -143,12 +147,12 @@ impl<'v> Shifted<'v> {
                 Some(0) => return Ok(sigma),
                 Some(_) => sigma = if sigma < 0.0 { 4.0 * sigma } else { -1e-3 * (1.0 + sigma) },
                 None => {
-                    // A shift may hit an ω²; two do not.
+                    // A shift may hit an ω², or be nothing beside stiffnesses; what is nothing beside the largest is not.
                     singular += 1;
-                    if singular > 2 {
+                    if singular > SINGULAR {
                         return Err(Trouble::Massless(self.null_vector()));
                     }
-                    sigma -= 0.37 * sigma.abs() + 1e-6;
+                    sigma = -(FARTHER * sigma.abs() + STEP);
                 }
             }
         }

@@ -15,6 +15,10 @@ const BLOCK: usize = 4;
 const LOOK: usize = 6;
 /// How well a pair must satisfy its equation.
 const RESIDUAL: f64 = 1e-10;
+/// The same beside the whole of the operator.
+const ROUND: f64 = 1e-13;
+/// θ beside the whole of the operator from which that counts.
+const SMALL: f64 = 1e-4;
 /// Part of its length that may be left of a vector that says something new.
 const NEW: f64 = 1e-9;
 /// Part of ω² that may be imaginary by round-off.
@@ -210,6 +214,8 @@ fn project(
 ) -> Option<Vec<Ritz>> {
     let m = images.len();
     let small = DMatrix::from_fn(m, m, |i, j| heavy[i].dot(&images[j]));
+    // What is far from normal has no vectors that are better than this.
+    let floor = ROUND * small.norm();
     let mut all: Vec<Complex<f64>> = eigenvalues(small.clone())?.iter().copied().collect();
     all.sort_by(|a, b| b.re.hypot(b.im).total_cmp(&a.re.hypot(a.im)).then(b.im.total_cmp(&a.im)));
     let mut found = Vec::new();
@@ -220,7 +226,8 @@ fn project(
         }
         let Some(weights) = eigenvector(&small, theta) else { break };
         let missed: f64 = open.iter().map(|(j, length)| weights[*j].re.hypot(weights[*j].im) * length).sum();
-        if missed > RESIDUAL * size {
+        let allowed = if size > SMALL * small.norm() { RESIDUAL * size + floor } else { RESIDUAL * size };
+        if missed > allowed {
             break;
         }
         let mut vector = [vec![0.0; images[0].len()], vec![0.0; images[0].len()]];

@@ -18,7 +18,7 @@ fn foundation(length: f64, steps: usize) -> Foundation {
     let spin = Spinning {
         axis: [0.6, 0.0, 0.8],
         through: [0.3, -0.1, 0.2],
-        inertia: places.iter().map(|s| (1.5 + s, [0.3, 0.1 + 0.1 * s, 0.2])).collect(),
+        inertia: places.iter().map(|s| (0.3 + 0.2 * s, [0.06, 0.02 + 0.02 * s, 0.04])).collect(),
     };
     Foundation {
         samples: samples.collect(),
