@@ -132,7 +132,12 @@ const HEAD: &str = "# Gallery\n\nEvery example that `flexura examples` lists, as
 fn study(text: &str) -> &'static str {
     let kinds = ["solve", "trace", "buckle", "modes", "optimise", "inverse_dynamics"]
         .map(|word| format!("kind = \"{word}\""));
-    if text.lines().any(|line| kinds.iter().any(|kind| line.starts_with(kind))) { "run" } else { "solve" }
+    let shows = |study: &str| {
+        let has = |line: &str| study.lines().any(|own| own.starts_with(line));
+        // Frequencies along a path are a picture of their own.
+        kinds.iter().any(|kind| has(kind)) && !(has("kind = \"modes\"") && has("parameter ="))
+    };
+    if text.split("\n[").any(shows) { "run" } else { "solve" }
 }
 
 /// The first line of a model file says what it is.
