@@ -38,8 +38,6 @@ const DOUBTFUL: f64 = 1e-8;
 const NOTHING: f64 = 1e-12;
 /// ω² beside the largest found that may be nothing.
 const FAINT: f64 = 1e-6;
-/// Shift that is surely not nothing, nondimensional.
-const NEAREST: f64 = 1e-4;
 /// Relative difference between two shifts up to which a small ω² is something.
 const SURE: f64 = 1e-3;
 /// Shift beside the lowest |s| where something damps or spins.
@@ -270,7 +268,7 @@ fn shift_below(squares: &[f64]) -> f64 {
     // What may be nothing tells no distance.
     let faint = FAINT * squares.iter().map(|square| square.abs()).fold(0.0, f64::max);
     let next = squares.iter().map(|square| square.abs()).find(|square| *square > faint).unwrap_or(1.0);
-    if first < 1e300 { (first - 0.3 * first.abs().max(next)).min(-NEAREST) } else { -1.0 }
+    if first < 1e300 { first - 0.3 * first.abs().max(next) } else { -1.0 }
 }
 
 /// The lowest modes with elements of one kind.
@@ -382,7 +380,7 @@ fn counted(
         // From another shift round-off makes something else of nothing, and softness stays what it is.
         let below = pairs.first().map_or(0.0, |(square, _)| square.min(0.0));
         let next = pairs.iter().map(|(square, _)| *square).find(|square| *square > FAINT * scale);
-        let hint = (1.7 * below - 0.4 * next.unwrap_or(1.0)).min(-NEAREST);
+        let hint = 1.7 * below - 0.4 * next.unwrap_or(1.0);
         let again = Start { below: hint, vectors: Vec::new(), prove: true, residual: start.residual };
         let mut again = shifted.lowest(count + small, &again)?;
         settle_rigid(vibration, &mut again);

@@ -34,7 +34,7 @@ const SHIFTS: usize = 40;
 /// How many of them may be singular, by how much farther the next one lies, and how far at least.
 const SINGULAR: usize = 8;
 const FARTHER: f64 = 7.3;
-const STEP: f64 = 1e-3;
+const STEP: f64 = 1e-6;
 /// Relative distance of ω² that count as two.
 const APART: f64 = 1e-7;
 /// The same beside their distance from the shift.
@@ -152,7 +152,7 @@ impl<'v> Shifted<'v> {
                     if singular > SINGULAR {
                         return Err(Trouble::Massless(self.null_vector()));
                     }
-                    sigma = -(FARTHER * sigma.abs() + STEP);
+                    sigma -= if singular <= 2 { 0.37 } else { FARTHER } * sigma.abs() + STEP;
                 }
             }
         }
