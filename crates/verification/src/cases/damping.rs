@@ -96,6 +96,9 @@ fn first(text: &str, range: [f64; 2], count: usize) -> Result<(OnsetKind, f64, f
     Ok((onset.kind, onset.parameter, onset.rate))
 }
 
+/// Name, model, range, modes, what sets in, where, and at which rate.
+type Onset<'a> = (&'a str, String, [f64; 2], usize, OnsetKind, f64, Option<f64>);
+
 fn onsets() -> Result<Vec<Row>, String> {
     let tip = "[load.tip]\nbeam = \"rod\"\nat = 1.0\n";
     let beck = |damping: &str| {
@@ -117,7 +120,7 @@ fn onsets() -> Result<Vec<Row>, String> {
     let euler = format!("[parameter]\np = 1\n{}{tip}force = [\"-p\", 0, 0]\n", rod(""));
     let quarter = 0.25 * std::f64::consts::PI.powi(2);
     let small: f64 = 1e-3;
-    let cases: [(&str, String, [f64; 2], usize, OnsetKind, f64, Option<f64>); 7] = [
+    let cases: [Onset; 7] = [
         ("Beck", beck(""), [5.0, 25.0], 3, OnsetKind::Flutter, 20.050953619, Some(11.015557641)),
         (
             "Beck, γ = 0.01",
