@@ -381,8 +381,8 @@ impl BeamLaw {
         sample
     }
 
-    /// Mass per length (kg/m), what is added to the section's included, and moments of inertia per length about the section's axes (kg·m) at `s`; NaN where an expression
-    /// gives no sound section.
+    /// Mass per length (kg/m), with what is added to the section's, and moments of inertia per length about the section's axes (kg·m)
+    /// at `s`; NaN where an expression gives no sound section.
     pub fn mass_at(&self, s: f64) -> (f64, [f64; 3]) {
         let (section, material) = (&self.section, self.material.as_ref());
         let mass = mass_per_length(section, material, s, self.length).unwrap_or(f64::NAN);

@@ -41,44 +41,6 @@ fn changes<'m, T: PartialEq>(
     (own.len() == other.len()).then(|| pairs.filter(|(_, (a, b))| a != b))
 }
 
-fn same_but_what_is_patched(own: &Model, other: &Model) -> bool {
-    let Model {
-        name: _,
-        gravity,
-        spin,
-        mass_damping,
-        parameters: _,
-        bindings: _,
-        materials: _,
-        sections: _,
-        beams: _,
-        bodies,
-        joints: _,
-        couplings,
-        springs: _,
-        cables,
-        tubes,
-        masses,
-        loads: _,
-        outputs,
-        unknowns,
-        targets,
-        studies: _,
-    } = own;
-    *gravity == other.gravity
-        && *spin == other.spin
-        && *mass_damping == other.mass_damping
-        && *bodies == other.bodies
-        && *couplings == other.couplings
-        && *cables == other.cables
-        && *tubes == other.tubes
-        && *masses == other.masses
-        && *outputs == other.outputs
-        && *unknowns == other.unknowns
-        && targets.len() == other.targets.len()
-        && targets.iter().zip(&other.targets).all(|(a, b)| a.output == b.output)
-}
-
 fn same_but_value(own: &Parameter, other: &Parameter) -> bool {
     let Parameter { name, value: _, unit, formula: _, is_structural } = own;
     *name == other.name && *unit == other.unit && *is_structural == other.is_structural
@@ -153,7 +115,7 @@ impl Equilibrium {
     /// A beam has no sound law.
     pub(crate) fn patch(&self, model: &Model) -> Option<Result<Patch, ProblemError>> {
         let own = &self.model;
-        if !same_but_what_is_patched(own, model) || self.lowered.beams.iter().any(|law| law.is_softened()) {
+        if own.differs_in_parts(model) || self.lowered.beams.iter().any(|law| law.is_softened()) {
             return None;
         }
         let mut patch = Patch::default();

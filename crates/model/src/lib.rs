@@ -170,3 +170,46 @@ pub struct Model {
     /// What is to be done with it.
     pub studies: Vec<Study>,
 }
+
+impl Model {
+    /// Does it differ from another in more than what a neighbouring model may have another number in without that a part moves:
+    /// parameters, materials, sections, beams, joints, springs, loads, and what targets want? These are for the caller to compare.
+    pub fn differs_in_parts(&self, other: &Model) -> bool {
+        // Taken apart whole, so that a field which is added does not compile before it is on one side or the other.
+        let Model {
+            name: _,
+            gravity,
+            mass_damping,
+            spin,
+            parameters: _,
+            bindings: _,
+            materials: _,
+            sections: _,
+            beams: _,
+            bodies,
+            joints: _,
+            couplings,
+            springs: _,
+            cables,
+            tubes,
+            masses,
+            loads: _,
+            outputs,
+            unknowns,
+            targets,
+            studies: _,
+        } = self;
+        *gravity != other.gravity
+            || *mass_damping != other.mass_damping
+            || *spin != other.spin
+            || *bodies != other.bodies
+            || *couplings != other.couplings
+            || *cables != other.cables
+            || *tubes != other.tubes
+            || *masses != other.masses
+            || *outputs != other.outputs
+            || *unknowns != other.unknowns
+            || targets.len() != other.targets.len()
+            || targets.iter().zip(&other.targets).any(|(a, b)| a.output != b.output)
+    }
+}

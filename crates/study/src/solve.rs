@@ -119,7 +119,6 @@ const LATE: f64 = 1e-4;
 const MOST_SAMPLES: usize = 30_000;
 const FEWEST_SAMPLES: usize = 5;
 
-/// Why an equilibrium may have no verdict though its mechanism has an energy.
 /// Why the energy of what spins does not decide.
 pub(crate) const SPINS: &str = "the frame spins, and gyroscopic forces may hold what its energy does not";
 
@@ -128,6 +127,7 @@ pub(crate) fn by_motion(reason: &str) -> String {
     format!("stability is decided by the lowest modes: {reason}")
 }
 
+/// Why an equilibrium may have no verdict though its mechanism has an energy.
 pub(crate) const CRITICAL: &str = "the equilibrium is critical: a direction gives way without resistance";
 
 /// Work that a solve may do, in integration steps of one state: for every model, and for each span of it.

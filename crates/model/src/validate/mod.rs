@@ -180,18 +180,7 @@ impl Model {
         for parameter in &self.parameters {
             issues.finite(format_args!("parameter.{}", parameter.name), parameter.value);
         }
-        let is_elsewhere = self.gravity != sound.gravity
-            || self.spin != sound.spin
-            || self.mass_damping != sound.mass_damping
-            || self.bodies != sound.bodies
-            || self.beams != sound.beams
-            || self.couplings != sound.couplings
-            || self.cables != sound.cables
-            || self.tubes != sound.tubes
-            || self.masses != sound.masses
-            || self.outputs != sound.outputs
-            || self.unknowns != sound.unknowns;
-        if is_elsewhere || !issues.0.is_empty() {
+        if self.differs_in_parts(sound) || self.beams != sound.beams || !issues.0.is_empty() {
             return self.validate_mechanism();
         }
         if self.materials != sound.materials || self.sections != sound.sections {

@@ -6,7 +6,7 @@
 //! exchange their shapes gradually.
 
 use super::onset::Sight;
-use super::{Bench, Spectrum, Trouble, explain, onset, reading, refuse, spectrum};
+use super::{Aim, Bench, Spectrum, Trouble, explain, onset, reading, refuse, spectrum};
 use crate::{ModelFamily, Options, Prepared, ProblemError, TraceProgress, trace};
 use flexura_equilibrium::{Equilibrium, Footing};
 use flexura_model::{Model, ModesPath, ModesStudy, TraceStudy};
@@ -155,7 +155,13 @@ impl Walk<'_> {
         if prepared.solve_near(from, self.options.tolerance).is_none() {
             return Ok(None);
         }
-        match spectrum(&mut prepared.problem, &mut self.bench, self.study.count, self.near.as_ref()) {
+        match spectrum(
+            &mut prepared.problem,
+            &mut self.bench,
+            self.study.count,
+            self.near.as_ref(),
+            Aim::Frequencies,
+        ) {
             Ok(found) => {
                 let tell = |wave: &super::Wave| signature(&prepared.problem, &found, &wave.vector[0]);
                 let signatures = found.waves.iter().map(tell).collect();

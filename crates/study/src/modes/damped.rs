@@ -10,7 +10,7 @@
 //! that tells vectors apart. Time is measured by `pace`, so that x and v/pace are of one size.
 
 use super::pencil::Trouble;
-use super::unsymmetric::{Operator, Ritz, Wave, largest};
+use super::unsymmetric::{MOST, Operator, PER, Ritz, Wave, largest};
 use flexura_equilibrium::Vibration;
 use flexura_nonlinear::{Breakdown, Matrix};
 use nalgebra::{Complex, DVector};
@@ -23,13 +23,10 @@ const LOSSLESS: f64 = 1e-9;
 const NOTHING: f64 = 1e-12;
 /// Part that must be left of a motion without stiffness beside others for it to be another.
 const NEW: f64 = 1e-3;
-/// Vectors of the largest space, besides so many for each s.
-const MOST: usize = 50;
-const PER: usize = 12;
 /// |s| beside the largest that was found below which a motion may have no stiffness.
 const FREE: f64 = 1e-5;
-/// Other shifts, beside the first.
-const OTHERS: [f64; 4] = [2.3, 0.43, 5.1, 0.19];
+/// Shifts that are tried, beside the first.
+const SHIFTED: [f64; 7] = [1.0, 2.3, 0.43, 5.1, 0.19, 15.0, 40.0];
 /// Tries of a shift that is no s.
 const SHIFTS: usize = 5;
 
@@ -101,23 +98,16 @@ impl Operator for Companion<'_> {
 /// The lowest s by their size, one of each conjugate pair: `count` and those of motions without stiffness, or as many as can be told.
 /// `sigma` is positive, and about as large as the lowest.
 pub fn slowest(vibration: &Vibration, count: usize, sigma: f64) -> Result<Vec<Wave>, Trouble> {
-    let (mut best, mut is_short) = about(vibration, count, sigma)?;
-    // From another shift the vectors of what is far from normal are others.
-    for factor in OTHERS {
-        if !is_short {
-            break;
-        }
-        let (waves, short) = about(vibration, count, factor * sigma)?;
-        is_short = short;
-        if !short || waves.len() > best.len() {
-            best = waves;
-        }
-    }
-    Ok(best)
+    // From another shift the vectors of what is far from normal are others. Fewer than there may be are none: what grows could be missing.
+    let found = SHIFTED.iter().find_map(|factor| match about(vibration, count, factor * sigma) {
+        Err(Trouble::Missing) => None,
+        found => found.transpose(),
+    });
+    found.unwrap_or(Err(Trouble::Missing))
 }
 
-/// The same from one shift, and whether a larger space might show more.
-fn about(vibration: &Vibration, count: usize, sigma: f64) -> Result<(Vec<Wave>, bool), Trouble> {
+/// The same from one shift; None where a larger space might show more.
+fn about(vibration: &Vibration, count: usize, sigma: f64) -> Result<Option<Vec<Wave>>, Trouble> {
     let mut shift = sigma;
     let mut tries = 0;
     let companion = loop {
@@ -155,7 +145,7 @@ fn about(vibration: &Vibration, count: usize, sigma: f64) -> Result<(Vec<Wave>, 
     waves.retain(|wave| wave.square.norm_sqr() > 0.0 || is_new(&mut free, &wave.vector[0]));
     waves.truncate(count + free.len());
     let is_short = waves.len() < count + free.len() && most < 2 * vibration.size;
-    Ok((waves, is_short))
+    Ok((!is_short).then_some(waves))
 }
 
 /// Are `count` of these the lowest by their size, whatever lies farther from the shift?

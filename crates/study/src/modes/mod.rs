@@ -32,6 +32,8 @@ const PHASE: f64 = 4.5;
 const BEYOND: f64 = 1.2;
 /// Relative difference of ω² at which two orders agree.
 const AGREE: f64 = 2e-10;
+/// The same where only signs are asked for.
+const ROUGH: f64 = 1e-4;
 /// The same from which a frequency is doubtful.
 const DOUBTFUL: f64 = 1e-8;
 /// ω² beside what cancels in it, from which on it is none.
@@ -46,6 +48,8 @@ const SHIFT: f64 = 0.3;
 const MEETING: f64 = 1e-2;
 /// Of how many modes a verdict of stability looks.
 const LOOKED_AT: [usize; 2] = [6, 3];
+/// Steps of a mesh up to which it looks: elements take more memory than steps do.
+const MOST_STEPS: usize = 1000;
 /// Rounds in which motions without stiffness make room for others.
 const ROUNDS: usize = 3;
 /// Tolerance of the equilibrium, if that is less than what was asked for.
@@ -87,7 +91,8 @@ pub fn modes(
         return Ok(empty(solution));
     }
     refuse(prepared.problem())?;
-    let found = match spectrum(prepared.problem(), &mut Bench::default(), study.count, None) {
+    let found = match spectrum(prepared.problem(), &mut Bench::default(), study.count, None, Aim::Frequencies)
+    {
         Ok(found) => found,
         Err(Trouble::Breakdown(Breakdown::Interrupted)) => {
             solution.status = Status::Interrupted;
@@ -168,15 +173,44 @@ fn refuse(problem: &Equilibrium) -> Result<(), ProblemError> {
     }
 }
 
-/// How many of the lowest modes about the present equilibrium grow; None where no inertia decides.
+/// How many of the lowest modes about the present equilibrium grow; None where no inertia decides, or where looking would take far more
+/// than the solve has.
 pub(crate) fn unstable_by_motion(problem: &mut Equilibrium) -> Option<usize> {
-    if problem.without_vibration().is_some() {
+    if problem.without_vibration().is_some() || problem.integration_steps() > MOST_STEPS {
         return None;
     }
     // Where much damps, what creeps crowds in before the higher modes.
-    let found =
-        LOOKED_AT.iter().find_map(|count| spectrum(problem, &mut Bench::default(), *count, None).ok())?;
+    let look = |count: &usize| spectrum(problem, &mut Bench::default(), *count, None, Aim::Signs).ok();
+    let found = LOOKED_AT.iter().find_map(look)?;
     Some(onset::Sight::of(&found).growing())
+}
+
+/// What a spectrum is for.
+#[derive(Clone, Copy, PartialEq)]
+enum Aim {
+    /// To the accuracy of the rod's theory.
+    Frequencies,
+    /// Only whether modes grow: a verdict beside a solve may not cost much more than the solve.
+    Signs,
+}
+
+impl Aim {
+    /// Relative difference of ω² at which two orders agree.
+    fn agree(self) -> f64 {
+        match self {
+            Aim::Frequencies => AGREE,
+            Aim::Signs => ROUGH,
+        }
+    }
+
+    /// Orders of elements that are tried, one behind the other.
+    fn orders(self, first: usize) -> Vec<usize> {
+        match self {
+            // Where the law changes within a small part of a wave, shorter elements of the highest order follow.
+            Aim::Frequencies => [&ORDERS[first..], &ORDERS, &[ORDERS[4]; 2]].concat(),
+            Aim::Signs => ORDERS.to_vec(),
+        }
+    }
 }
 
 /// What was found at one state.
@@ -199,6 +233,7 @@ fn spectrum(
     bench: &mut Bench,
     count: usize,
     near: Option<&Spectrum>,
+    aim: Aim,
 ) -> Result<Spectrum, Trouble> {
     let mut detail = Detail { order: ORDERS[0], square: 0.0, phase: PHASE };
     let mut before: Option<Found> = None;
@@ -212,9 +247,7 @@ fn spectrum(
     }
     let residual = if near.is_some() { FAIR } else { SHARP };
     let first = near.and_then(|near| ORDERS.iter().position(|order| *order == near.order)).unwrap_or(0);
-    // Where the law changes within a small part of a wave, shorter elements of the highest order follow.
-    let rounds = ORDERS[first..].iter().chain(&ORDERS).chain(&[ORDERS[4]; 2]);
-    for (round, &order) in rounds.enumerate() {
+    for (round, order) in aim.orders(first).into_iter().enumerate() {
         detail.order = order;
         let (mut start, source) = match (&before, near) {
             (Some(found), _) => (start(&found.waves, found.has_energy, residual), Some(&found.vibration)),
@@ -227,8 +260,8 @@ fn spectrum(
         let compared = before.as_ref().filter(|_| round > 0).map(|before| found.errors(before));
         let is_last = order == ORDERS[4];
         for errors in [errors, compared].into_iter().flatten() {
-            if errors.iter().all(|error| *error <= AGREE) || is_last {
-                let agree = errors.iter().all(|error| *error <= DOUBTFUL);
+            if errors.iter().all(|error| *error <= aim.agree()) || is_last {
+                let agree = errors.iter().all(|error| *error <= DOUBTFUL.max(aim.agree()));
                 if agree || detail.phase < 0.2 * PHASE {
                     let exhausted = found.waves.len() < count + found.rigid();
                     let has_energy = found.has_energy;

@@ -14,7 +14,7 @@ mod read;
 mod signals;
 
 use super::pencil::{Bench, SHARP, Start, Trouble};
-use super::{Spectrum, counted, explain, refuse, spectrum, stand};
+use super::{Aim, Spectrum, counted, explain, refuse, spectrum, stand};
 use crate::{Options, ProblemError, Progress};
 use flexura_equilibrium::{Equilibrium, Vibration};
 use flexura_model::{Model, ModesStudy, StudyKind};
@@ -72,7 +72,7 @@ pub fn state_space(
     refuse(problem)?;
     let outputs = signals::outputs(model, &request.outputs, &mut solution.warnings)?;
     let mut bench = Bench::default();
-    let built = spectrum(problem, &mut bench, study.count, None)
+    let built = spectrum(problem, &mut bench, study.count, None, Aim::Frequencies)
         .and_then(|found| Builder::new(problem, &found, &solution, study.count, &mut bench, &inputs));
     let builder = match built {
         Ok(builder) => builder,

@@ -10,15 +10,14 @@ use flexura_nonlinear::{Breakdown, Matrix};
 use flexura_spatial::eigenvalues;
 use nalgebra::{Complex, DMatrix, DVector};
 
+/// Vectors of the largest space, besides so many for each eigenvalue.
+pub(super) const MOST: usize = 50;
+pub(super) const PER: usize = 12;
 /// Vectors of the start, and between two looks.
 const BLOCK: usize = 4;
 const LOOK: usize = 6;
 /// How well a pair must satisfy its equation.
 const RESIDUAL: f64 = 1e-10;
-/// The same beside the whole of the operator.
-const ROUND: f64 = 1e-13;
-/// θ beside the whole of the operator from which that counts.
-const SMALL: f64 = 1e-4;
 /// Part of its length that may be left of a vector that says something new.
 const NEW: f64 = 1e-9;
 /// Part of ω² that may be imaginary by round-off.
@@ -99,7 +98,8 @@ impl Operator for Inverse<'_> {
 /// The `count` ω² nearest to σ, those of a conjugate pair both counted, and their vectors.
 pub fn nearest(vibration: &Vibration, count: usize, sigma: f64) -> Result<Vec<Wave>, Trouble> {
     let is_enough = |found: &[Ritz]| found.len() >= count;
-    let found = largest(Inverse::new(vibration, sigma)?, count, vibration.size, &is_enough)?;
+    let most = (MOST + PER * count).min(vibration.size);
+    let found = largest(Inverse::new(vibration, sigma)?, count, most, &is_enough)?;
     let wave = |(theta, vector): Ritz| {
         let mut square = Complex::new(sigma, 0.0) + Complex::new(1.0, 0.0) / theta;
         if square.im.abs() <= REAL * square.re.abs() {
@@ -214,8 +214,6 @@ fn project(
 ) -> Option<Vec<Ritz>> {
     let m = images.len();
     let small = DMatrix::from_fn(m, m, |i, j| heavy[i].dot(&images[j]));
-    // What is far from normal has no vectors that are better than this.
-    let floor = ROUND * small.norm();
     let mut all: Vec<Complex<f64>> = eigenvalues(small.clone())?.iter().copied().collect();
     all.sort_by(|a, b| b.re.hypot(b.im).total_cmp(&a.re.hypot(a.im)).then(b.im.total_cmp(&a.im)));
     let mut found = Vec::new();
@@ -226,8 +224,7 @@ fn project(
         }
         let Some(weights) = eigenvector(&small, theta) else { break };
         let missed: f64 = open.iter().map(|(j, length)| weights[*j].re.hypot(weights[*j].im) * length).sum();
-        let allowed = if size > SMALL * small.norm() { RESIDUAL * size + floor } else { RESIDUAL * size };
-        if missed > allowed {
+        if missed > RESIDUAL * size {
             break;
         }
         let mut vector = [vec![0.0; images[0].len()], vec![0.0; images[0].len()]];

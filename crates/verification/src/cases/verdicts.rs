@@ -22,9 +22,9 @@ pub const CASES: [Case; 2] = [
 
 const DECIDED: Case = Case {
     id: "stability_by_motion",
-    title: "Beck's column with a mass (`beck_column.toml`), at a hundredth below and above PL²/EI = 20.0509536: stable and unstable, of an \
-            equilibrium and along a path, and by what it is decided",
-    citation: "M. Beck, *ZAMP* 3 (1952) 225",
+    title: "Beck's column with a mass (`beck_column.toml`), at a hundredth below and above PL²/EI = 20.0509536 without damping and 10.9661117 with \
+            γ = 0.01: stable and unstable, of an equilibrium and along a path, and by what it is decided",
+    citation: "M. Beck, *ZAMP* 3 (1952) 225; V. V. Bolotin and N. I. Zhinzher, *Int. J. Solids Struct.* 5 (1969) 965",
     needed: "verdicts right",
     run: by_motion,
     closed_form: None,
@@ -32,25 +32,28 @@ const DECIDED: Case = Case {
 
 fn by_motion() -> Result<Vec<Row>, String> {
     let file = File::new(include_str!("../../../../models/beck_column.toml"))?;
-    let load = 20.050953619;
-    let at = |part: f64| file.solve(&[("push", part * load)], 1e-8);
-    let (below, above) = (at(0.99)?.solution, at(1.01)?.solution);
-    let says = |solution: &flexura_solution::Solution| {
-        solution.warnings.iter().any(|warning| warning.contains("decided by the lowest modes"))
-    };
-    let wrong = [
-        below.stable != Some(true),
-        above.stable != Some(false),
-        above.unstable_directions != Some(1),
-        !says(&below),
-        !says(&above),
-    ];
-    let path = Path::of("push", [0.9 * load, 1.1 * load]);
-    let followed = file.trace(&[], &path, 1e-8)?;
-    let points = &followed.first()?.points;
-    let astray = points.iter().filter(|point| point.stable != Some(point.parameter < load)).count();
-    let count = wrong.into_iter().filter(|wrong| *wrong).count() + astray;
-    Ok(vec![Row::vanishing("wrong verdicts".to_string(), count as f64, 0.0)])
+    let mut rows = Vec::new();
+    for (damping, load) in [(0.0, 20.050953619), (0.01, 10.966111659)] {
+        let at = |part: f64| file.solve(&[("damping", damping), ("push", part * load)], 1e-8);
+        let (below, above) = (at(0.99)?.solution, at(1.01)?.solution);
+        let says = |solution: &flexura_solution::Solution| {
+            solution.warnings.iter().any(|warning| warning.contains("decided by the lowest modes"))
+        };
+        let wrong = [
+            below.stable != Some(true),
+            above.stable != Some(false),
+            above.unstable_directions != Some(1),
+            !says(&below),
+            !says(&above),
+        ];
+        let path = Path::of("push", [0.9 * load, 1.1 * load]);
+        let followed = file.trace(&[("damping", damping)], &path, 1e-8)?;
+        let points = &followed.first()?.points;
+        let astray = points.iter().filter(|point| point.stable != Some(point.parameter < load)).count();
+        let count = wrong.into_iter().filter(|wrong| *wrong).count() + astray;
+        rows.push(Row::vanishing(format!("wrong verdicts, γ = {damping}"), count as f64, 0.0));
+    }
+    Ok(rows)
 }
 
 /// Points with a load and a verdict, and whether the reason is given, with these words, by the trace and by its last state.
