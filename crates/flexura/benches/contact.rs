@@ -4,30 +4,12 @@
 
 #![allow(clippy::print_stdout, reason = "a bench prints its table")]
 
-use flexura::model::Model;
-use flexura::modelfile::Document;
+mod common;
+
+use common::{median, read};
 use flexura::solution::Status;
 use flexura::{Options, solve};
 use std::hint::black_box;
-use std::time::Instant;
-
-fn read(file: &str) -> Model {
-    let document = Document::read(format!("{}/../../models/{file}", env!("CARGO_MANIFEST_DIR")));
-    document.and_then(|document| document.model(&[])).expect("a bundled model")
-}
-
-/// Median of seconds of one call, over some runs of `times` calls, after one to warm up.
-fn median(times: usize, mut call: impl FnMut()) -> f64 {
-    let mut run = || {
-        let start = Instant::now();
-        (0..times).for_each(|_| call());
-        start.elapsed().as_secs_f64() / times as f64
-    };
-    run();
-    let mut seconds: Vec<f64> = (0..9).map(|_| run()).collect();
-    seconds.sort_by(f64::total_cmp);
-    seconds[seconds.len() / 2]
-}
 
 fn main() {
     println!("| mechanism | time |");
@@ -41,7 +23,7 @@ fn main() {
         "wing.toml",
     ] {
         let model = read(file);
-        let seconds = median(10, || {
+        let seconds = median(|| {
             let solution = solve(&model, &Options::default(), &mut |_| {}).expect("a sound model");
             assert_eq!(solution.status, Status::Converged, "{file}");
             black_box(solution);

@@ -1,12 +1,14 @@
 //! What fits cost beside the inverse problems that a formula would stand for. Run by hand: `cargo bench -p flexura --bench fit`.
 #![allow(clippy::expect_used, clippy::print_stdout)]
 
+mod common;
+
+use common::median;
 use flexura::model::{FitStudy, MeasuredRow, Measurements, Model, StudyKind};
 use flexura::modelfile::Document;
 use flexura::solution::Status;
 use flexura::{Evaluator, Options, Stepper, fit};
 use std::hint::black_box;
-use std::time::Instant;
 
 const BONE: &str = r#"
 format = 1
@@ -37,18 +39,6 @@ kind = "fit"
 unknown = ["young"]
 data = { columns = ["pull [N]", "thickness [mm]", "tip [mm]", "specimen"], rows = [[1, 3, 0.1, "A"]] }
 "#;
-
-fn median(mut run: impl FnMut()) -> f64 {
-    let mut times: Vec<f64> = (0..15)
-        .map(|_| {
-            let start = Instant::now();
-            run();
-            start.elapsed().as_secs_f64()
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
-}
 
 /// Eight specimens of fifty points, each of its own thickness, with 20 micrometres of noise.
 fn bones(is_own: bool) -> (Model, FitStudy) {

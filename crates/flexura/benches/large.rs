@@ -5,8 +5,10 @@
 
 #![allow(clippy::print_stdout, reason = "a bench prints its table")]
 
+mod common;
+
+use common::document;
 use flexura::model::{Curve, Model};
-use flexura::modelfile::Document;
 use flexura::solution::Status;
 use flexura::{Prepared, ProblemError};
 use std::time::Instant;
@@ -20,21 +22,17 @@ fn main() {
         robot();
     }
     if wanted("planar") {
-        lattices("planar", "../../models/lattice.toml", &[2, 4, 10, 15, 23, 36, 71]);
+        lattices("planar", "lattice.toml", &[2, 4, 10, 15, 23, 36, 71]);
     }
     if wanted("spatial") {
-        lattices("spatial", "../../models/lattice_3d.toml", &[2, 4, 6, 8, 11, 15]);
+        lattices("spatial", "lattice_3d.toml", &[2, 4, 6, 8, 11, 15]);
     }
-}
-
-fn read(path: &str) -> Document {
-    Document::read(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).expect("a bundled model")
 }
 
 /// The plate from (0, .02, .48) to (0, .12, .58) in 100 steps, there and back: inverse, then forward with the lengths found.
 fn robot() {
     const STEPS: usize = 100;
-    let base = read("../../models/six_rod_robot.toml").model(&[]).expect("a good model");
+    let base = document("six_rod_robot.toml").model(&[]).expect("a good model");
     let rods = base.unknowns.clone();
     let at = |model: &mut Model, lengths: &[(usize, f64)], step: usize| {
         let part = step as f64 / STEPS as f64;
@@ -113,7 +111,7 @@ fn robot() {
 }
 
 fn lattices(name: &str, path: &str, sizes: &[usize]) {
-    let document = read(path);
+    let document = document(path);
     println!("{name} lattice, tolerance {TOLERANCE:.0e}");
     println!("    n   beams  unknowns   read ms  prepare ms   solve ms   peak MiB");
     let mut rows = Vec::new();

@@ -5,35 +5,19 @@
 
 #![allow(clippy::print_stdout, reason = "a bench prints its table")]
 
+mod common;
+
+use common::{median, read};
 use flexura::model::{Model, ModesPath, ModesStudy, TraceStudy};
-use flexura::modelfile::Document;
 use flexura::solution::Trace;
 use flexura::{Options, modes, modes_along, trace};
-use std::time::Instant;
 
-/// A bundled model, of steel.
-fn read(file: &str, overrides: &[(&str, &str)]) -> Model {
-    let path = format!("{}/../../models/{file}", env!("CARGO_MANIFEST_DIR"));
-    let overrides: Vec<_> =
-        overrides.iter().map(|(name, value)| (name.to_string(), value.to_string())).collect();
-    let mut model = Document::read(path).expect("a bundled model").model(&overrides).expect("a good model");
+/// A bundled model, of steel, with nothing unknown.
+fn steel(file: &str) -> Model {
+    let mut model = read(file);
     model.materials.iter_mut().for_each(|material| material.density = Some(7850.0));
     (model.unknowns, model.targets) = (Vec::new(), Vec::new());
     model
-}
-
-/// Median of seconds over some runs, after one to warm up.
-fn median(mut run: impl FnMut()) -> f64 {
-    run();
-    let mut times: Vec<f64> = (0..9)
-        .map(|_| {
-            let start = Instant::now();
-            run();
-            start.elapsed().as_secs_f64()
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
 }
 
 fn about(name: &str, model: &Model, study: &ModesStudy) {
@@ -53,7 +37,7 @@ fn about(name: &str, model: &Model, study: &ModesStudy) {
 
 /// Three frequencies at each of a hundred points of the travel of a parallel guide, and its path alone.
 fn guide() {
-    let model = read("parallelogram_stage.toml", &[]);
+    let model = steel("parallelogram_stage.toml");
     let options = Options::default();
     let path = ModesPath { parameter: 0, range: [0.0, 40.0], steps: 99 };
     let study = ModesStudy { count: 3, at_rest: false, path: Some(path) };
@@ -77,13 +61,13 @@ fn main() {
     let wanted = |name: &str| only.is_empty() || only.iter().any(|o| o == name);
     println!("| modes of | time | modes | elements | error |\n|---|---|---|---|---|");
     if wanted("cantilever") {
-        let model = read("ends_cantilever.toml", &[]);
+        let model = steel("ends_cantilever.toml");
         let rest = ModesStudy { count: 6, at_rest: true, path: None };
         about("a cantilever at rest", &model, &rest);
         about("a cantilever under its load", &model, &ModesStudy { at_rest: false, ..rest });
     }
     if wanted("robot") {
-        about("the six-rod platform", &read("six_rod_robot.toml", &[]), &ModesStudy::default());
+        about("the six-rod platform", &steel("six_rod_robot.toml"), &ModesStudy::default());
     }
     if wanted("guide") {
         guide();

@@ -2,36 +2,13 @@
 //! `cargo bench -p flexura --bench parameters`.
 #![allow(clippy::expect_used, clippy::print_stdout)]
 
-use flexura::model::Model;
+mod common;
+
+use common::{document, median, read};
 use flexura::modelfile::Document;
 use flexura::solution::Status;
 use flexura::{Axis, Family, ModelFamily, Options, Prepared, Sweep, solve_model};
 use std::hint::black_box;
-use std::time::Instant;
-
-fn read(file: &str) -> (Document, Model) {
-    let path = format!("{}/../../models/{file}", env!("CARGO_MANIFEST_DIR"));
-    let document = Document::read(path).expect("a bundled model");
-    let model = document.model(&[]).expect("a good model");
-    (document, model)
-}
-
-/// Median of seconds of one run, in batches that last long enough to be measured.
-fn median(mut run: impl FnMut()) -> f64 {
-    let start = Instant::now();
-    run();
-    let once = start.elapsed().as_secs_f64().max(1e-8);
-    let batch = ((2e-3 / once) as usize).clamp(1, 10_000);
-    let mut times: Vec<f64> = (0..15)
-        .map(|_| {
-            let start = Instant::now();
-            (0..batch).for_each(|_| run());
-            start.elapsed().as_secs_f64() / batch as f64
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
-}
 
 /// Other values of the first parameter on which the mechanism depends: in place, as a checked model, by text.
 fn values() {
@@ -39,7 +16,8 @@ fn values() {
         "| other values of a parameter | rules | in place | a checked model | by text |\n|---|---|---|---|---|"
     );
     for file in ["sensor_clamp.toml", "cantilever_strip.toml", "six_rod_robot.toml", "wing_ligaments.toml"] {
-        let (document, model) = read(file);
+        let document = document(file);
+        let model = document.model(&[]).expect("a good model");
         let Some(position) = (0..model.parameters.len()).find(|i| model.depends_on(*i)) else { continue };
         let parameter = &model.parameters[position];
         let mut scratch = model.clone();
@@ -75,7 +53,7 @@ fn sensitivities() {
         "\n| sensitivities | parameters | solve | with them | they cost, in solves |\n|---|---|---|---|---|"
     );
     for file in ["knee_leg.toml", "wing_ligaments.toml", "six_rod_robot.toml", "sensor_clamp.toml"] {
-        let (_, model) = read(file);
+        let model = read(file);
         let plain = Options { samples: 2, ..Options::default() };
         let all = Options { sensitivities: true, ..plain.clone() };
         let time = |options: &Options| {
@@ -97,7 +75,7 @@ fn sensitivities() {
 }
 
 fn samples() {
-    let (_, model) = read("cantilever_strip.toml");
+    let model = read("cantilever_strip.toml");
     let axis = Axis::parse(&model, "payload=1 g:20 g:400").expect("a good axis");
     let sweep = Sweep::new(&model, vec![axis], &Options::default()).expect("a good sweep");
     let time = median(|| {
@@ -138,7 +116,7 @@ push = { guess = "0.1 N" }
 fn inverse() {
     println!("\n| warm inverse solve | a step |\n|---|---|");
     let strip = Document::parse(STRIP, "strip.toml").expect("a good file").model(&[]).expect("a good model");
-    let robot = read("six_rod_robot.toml").1;
+    let robot = read("six_rod_robot.toml");
     for (name, model, target) in
         [("a strip to a wanted deflection", strip, 0), ("the six-rod robot", robot, 2)]
     {

@@ -5,15 +5,13 @@
 
 #![allow(clippy::print_stdout, reason = "a bench prints its table")]
 
+mod common;
+
+use common::{document, median};
 use flexura::model::{Model, StudyKind, TraceStudy};
 use flexura::modelfile::Document;
 use flexura::solution::{Status, Trace};
 use flexura::{Options, Prepared, trace};
-use std::time::Instant;
-
-fn read(file: &str) -> Document {
-    Document::read(format!("{}/../../models/{file}", env!("CARGO_MANIFEST_DIR"))).expect("a bundled model")
-}
 
 fn position(model: &Model, name: &str) -> usize {
     model.parameters.iter().position(|parameter| parameter.name == name).expect("a parameter")
@@ -24,20 +22,6 @@ fn follow(model: &Model, study: &TraceStudy) -> Trace {
     let trace = trace(model, study, &options, &mut |_| {}).expect("a sound model");
     assert_eq!(trace.status, Status::Converged, "{:?}", trace.reason);
     trace
-}
-
-/// Median of seconds over some runs, after one to warm up.
-fn median(mut run: impl FnMut()) -> f64 {
-    run();
-    let mut times: Vec<f64> = (0..9)
-        .map(|_| {
-            let start = Instant::now();
-            run();
-            start.elapsed().as_secs_f64()
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
 }
 
 fn report(name: &str, mut run: impl FnMut() -> Trace) {
@@ -57,7 +41,7 @@ fn report(name: &str, mut run: impl FnMut() -> Trace) {
 
 /// A strip between clamps, one of which slides and is pushed: along the push and its bow, and along its thickness.
 fn strips(kind: &str) {
-    let document = read("strip_on_slope.toml");
+    let document = document("strip_on_slope.toml");
     let model = document.model(&[]).expect("a good model");
     let push = position(&model, "push");
     let mut study =
@@ -99,7 +83,7 @@ fn counts() {
     ];
     for (name, file, parameter, value) in cases {
         let overrides = [(parameter.to_string(), value.to_string())];
-        let mut model = read(file).model(&overrides).expect("a good model");
+        let mut model = document(file).model(&overrides).expect("a good model");
         (model.unknowns, model.targets) = (Vec::new(), Vec::new());
         let mut prepared = Prepared::new(&model).expect("a sound model");
         assert_eq!(prepared.solve(1e-8, &mut |_| {}).status, Status::Converged, "{name}");

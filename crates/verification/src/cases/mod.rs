@@ -26,6 +26,7 @@ mod modes_curved;
 mod modes_of_mechanisms;
 mod motion;
 mod node;
+mod node_models;
 mod pushed_strip;
 pub(crate) mod recipe;
 mod robot;
@@ -78,6 +79,7 @@ pub fn cases() -> Vec<Case> {
         &pushed_strip::CASES,
         &slide_law::CASES,
         &node::CASES,
+        &node_models::CASES,
         &torsion::CASES,
         &sideways::CASES,
         &snaps::CASES,

@@ -1,16 +1,15 @@
 //! The flexonic mobile node: round a corner, and looking round.
 
-use crate::file::{Answer, File, asking};
+use crate::file::File;
 use crate::path::{Path, events};
 use crate::{Case, Row};
 use flexura_spatial::{Pose, Vector3, Wrench};
-use flexura_testkit::ivp::integrate;
 use flexura_testkit::planar::{self, Beam, Body, End, Mechanism};
 use flexura_testkit::rod::{Rod, State};
 use flexura_testkit::shoot::Shooting;
 use std::f64::consts::PI;
 
-pub const CASES: [Case; 4] = [
+pub const CASES: [Case; 3] = [
     Case {
         id: "node_corner",
         title: "5.2.2, the node's front assembly turned about the edge of a corner by the rear (`node_corner.toml`), without gravity, by 30° \
@@ -31,15 +30,6 @@ pub const CASES: [Case; 4] = [
         closed_form: None,
     },
     Case {
-        id: "node_models",
-        title: "All models of the node: its beam integrated again from its start arrives with the pose and wrench of its end, \
-                and with the strain energy",
-        citation: "extrapolation of order 12",
-        needed: "1e-9 of L, 1, EI/L², EI/L and EI/L",
-        run: models,
-        closed_form: None,
-    },
-    Case {
         id: "portal_frame",
         title: "5.3.4, the frame that the node stands on (`portal_frame.toml`), its own weight and the node's: thrust at the feet",
         citation: "3 P a b/(2 l h N) and q l³/(4 l h N), N = 2 h/l + 3 (A. Kleinlogel, *Rahmenformeln*); small deflections, \
@@ -52,9 +42,7 @@ pub const CASES: [Case; 4] = [
 
 const CORNER: &str = include_str!("../../../../models/node_corner.toml");
 const REAR: &str = include_str!("../../../../models/node_corner_rear.toml");
-const CAMERA: &str = include_str!("../../../../models/node_camera.toml");
 const PRINTED: &str = include_str!("../../../../models/node_camera_printed.toml");
-const NARROW: &str = include_str!("../../../../models/node_narrow_corner.toml");
 const PORTAL: &str = include_str!("../../../../models/portal_frame.toml");
 
 /// The strip of `parts/flexonic_node.toml`.
@@ -176,84 +164,6 @@ fn printed() -> Result<Vec<Row>, String> {
             rows.push(Row::absolute("u0/L, by its value", 0.086_158_036, answer.number("u0_over_L"), 1e-6));
         }
     }
-    Ok(rows)
-}
-
-/// Pose and wrench where the beam ends that leaves its start as the answer says, and the energy on the way, with
-/// what is stored elsewhere: how far they are from the answer's.
-fn arrives(what: &str, answer: &Answer, compliance: &[f64; 6], more: f64) -> Result<Vec<Row>, String> {
-    let beam = answer.solution.beams.first().ok_or("no beam")?;
-    let (Some(first), Some(last)) = (beam.samples.first(), beam.samples.last()) else {
-        return Err("no samples".to_string());
-    };
-    let rod = Rod::uniform(beam.length, *compliance, Vector3::zeros());
-    let start = State::new(&first.pose, &first.wrench).to_array();
-    let rate = |s: f64, y: &[f64; 14]| {
-        let state: [f64; 13] = std::array::from_fn(|i| y[i]);
-        let back = State::from_array(&state).pose().rotation.inverse();
-        let State { force, moment, .. } = State::from_array(&state);
-        let (force, moment) = (back * force, back * moment);
-        let parts = [force.x, force.y, force.z, moment.x, moment.y, moment.z];
-        let density: f64 = parts.iter().zip(&rod.compliance).map(|(part, c)| 0.5 * c * part * part).sum();
-        let rates = rod.rates(s, &state, 0.0);
-        std::array::from_fn(|i| if i < 13 { rates[i] } else { density })
-    };
-    let path =
-        integrate(rate, std::array::from_fn(|i| if i < 13 { start[i] } else { 0.0 }), 0.0, beam.length, 64);
-    let end = State::from_array(&std::array::from_fn(|i| path[64].1[i]));
-    let (force, moment) = (BENDING / (L * L), BENDING / L);
-    let off = [
-        (end.position - last.pose.position).norm() / L,
-        end.pose().rotation.angle_to(&last.pose.rotation),
-        (end.force - last.wrench.force).norm() / force,
-        (end.moment - last.wrench.moment).norm() / moment,
-    ];
-    Ok(vec![
-        Row::vanishing(format!("end of the beam, {what}"), off.into_iter().fold(0.0, f64::max), 1e-9),
-        Row::scaled(
-            format!("strain energy, J, {what}"),
-            path[64].1[13] + more,
-            answer.solution.energy,
-            moment,
-            1e-9,
-        ),
-    ])
-}
-
-fn models() -> Result<Vec<Row>, String> {
-    let shear = 79.3 / 207.0;
-    let series = |n: i32| {
-        let odd = f64::from(2 * n + 1);
-        (odd * PI * ASPECT / 2.0).tanh() / odd.powi(5)
-    };
-    let constant = 1.0 / 3.0 - 64.0 / (PI.powi(5) * ASPECT) * (0..60).rev().map(series).sum::<f64>();
-    let strip =
-        [0.0, 0.0, 0.0, 1.0 / (12.0 * shear * constant), 1.0, 1.0 / (ASPECT * ASPECT)].map(|c| c / BENDING);
-    let leaf = [0.0, 0.0, 0.0, 1.0 / 1.520_299_758_5, 1.0, 1.0 / (ASPECT * ASPECT)].map(|c| c / BENDING);
-    let leaf = [1.0 / (207e9 * 20.32e-3 * 0.254e-3), leaf[1], leaf[2], leaf[3], leaf[4], leaf[5]];
-    let aim = asking(CAMERA, &[("u0", 2e-3)], &[("pitch", 15f64.to_radians())]);
-    let cases: [(&str, &str, [f64; 6]); 5] = [
-        ("a corner, with gravity", CORNER, strip),
-        ("the rear over it", REAR, strip),
-        ("little room", NARROW, strip),
-        ("looking round", &aim, leaf),
-        ("as printed", PRINTED, leaf),
-    ];
-    let mut rows = Vec::new();
-    for (what, text, compliance) in cases {
-        let answer = File::new(text)?.solve(&[], 1e-12)?;
-        // The magnets that hold the front assembly level store energy too.
-        let pitch = if text == aim { answer.number("pitch") } else { 0.0 };
-        rows.extend(arrives(what, &answer, &compliance, 0.5 * 0.69 * pitch * pitch)?);
-    }
-    // Nothing but its weight, the beam and the edge act on the front assembly.
-    let answer = File::new(CORNER)?.solve(&[], 1e-12)?;
-    let theta = answer.number("theta");
-    let end = answer.solution.beams[0].samples.last().ok_or("no samples")?;
-    let weight = Vector3::new(0.0, 0.0, -0.5 * 9.80665);
-    let axle = Vector3::new(38.1e-3 * theta.sin(), 0.0, 38.1e-3 * theta.cos());
-    let moment = axle.cross(&weight) - end.wrench.moment - end.pose.position.cross(&end.wrench.force);
-    rows.push(Row::vanishing("moment about the edge, EI/L", moment.y.abs() * L / BENDING, 1e-9));
     Ok(rows)
 }
 

@@ -5,7 +5,9 @@
 
 mod facts;
 mod fitted;
+mod laws;
 mod node;
+mod rolling;
 
 use crate::{cases, outcomes};
 use std::collections::BTreeMap;
@@ -23,7 +25,7 @@ type Fact = (String, f64);
 /// Something named in it is not computed, or cannot be.
 pub fn thesis() -> Result<String, String> {
     let mut numbers: BTreeMap<String, f64> = BTreeMap::new();
-    for group in [facts::facts, fitted::facts, node::facts] {
+    for group in [facts::facts, fitted::facts, laws::facts, node::facts, rolling::facts] {
         numbers.extend(group()?);
     }
     let wanted: Vec<&str> =
@@ -82,5 +84,37 @@ mod tests {
         assert_eq!(filled("x {{a,2}} y {{b/c, d,3}}.", &numbers), Ok("x 1.23 y 0.000.".to_string()));
         assert_eq!(names("x {{a,2}} y {{b/c, d,3}}."), Ok(vec!["a", "b/c, d"]));
         assert!(filled("{{e,1}}", &numbers).is_err());
+    }
+
+    /// What is written by hand to three places and more: as the thesis prints it, or given.
+    const PRINTED: &[&str] = &[
+        "0.0001", "0.00005", "0.0002", "0.0025", "0.0036", "0.0051", "0.0094", "0.0612", "0.0624", "0.0672",
+        "0.0851", "0.0999", "0.011", "0.017", "0.025", "0.1069", "0.1309", "0.1543", "0.1559", "0.194",
+        "0.1948", "0.2009", "0.2169", "0.866", "0.9762", "1.009", "1.1298", "1.1803", "2.7816", "4.626",
+        "5.715", "9.4377", "10.757", "71.973", "0.001",
+    ];
+
+    #[test]
+    fn numbers_of_ours_are_computed_when_the_page_is_made() {
+        let mut text = String::new();
+        let mut rest = PAGE;
+        while let Some((before, behind)) = rest.split_once(OPEN) {
+            text.push_str(before);
+            rest = behind.split_once(CLOSE).unwrap().1;
+        }
+        text.push_str(rest);
+        let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.');
+        let long = |number: &&str| {
+            number.split_once('.').is_some_and(|(_, places)| places.len() > 2 && !places.contains('.'))
+        };
+        let strangers: Vec<&str> = numbers
+            .map(|number| number.trim_end_matches('.'))
+            .filter(long)
+            .filter(|number| !PRINTED.contains(number))
+            .collect();
+        assert_eq!(strangers, Vec::<&str>::new());
+        for printed in PRINTED {
+            assert!(text.contains(printed), "{printed} is not on the page any more");
+        }
     }
 }
