@@ -12,11 +12,28 @@ pub fn schema() -> String {
         ("title", text("flexura model file")),
     ];
     members.extend(table_members(&FILE, None));
+    // What is included may hold the rest of a thing.
+    let alone = object(&[("required", array([text("include")]))]);
+    members.push(("if", object(&[("not", alone)])));
+    members.push(("then", object(&[("properties", object(&needed()))])));
     members.push((
         "$defs",
         object(&[("number", number()), ("extended", extended()), ("vector", list_of("number", 3))]),
     ));
     indent(&object(&members))
+}
+
+/// The keys that things of one kind must have, by the name of their table.
+fn needed() -> Vec<(&'static str, String)> {
+    let tables = FILE.keys.iter().filter_map(|key| match &key.shape {
+        Shape::NamedTables(inner) if inner.variants.is_none() => Some((key.name, inner)),
+        _ => None,
+    });
+    let needed = tables.map(|(name, inner)| {
+        let required = inner.keys.iter().filter(|key| key.need == Need::Required).map(|key| text(key.name));
+        (name, object(&[("additionalProperties", object(&[("required", array(required))]))]))
+    });
+    needed.collect()
 }
 
 /// A number, or a text with a unit or an expression.
@@ -158,7 +175,11 @@ fn value(shape: &Shape) -> String {
         Shape::Placed(inner) | Shape::Reading(inner) => any_of([type_of("string"), table(inner)]),
         Shape::Table(inner) => table(inner),
         Shape::Tables(inner) => any_of([table(inner), list(table(inner), None, 0)]),
-        Shape::NamedTables(inner) => named(object(&table_members(inner, Some(&REPEAT)))),
+        Shape::NamedTables(inner) => {
+            let mut members = table_members(inner, Some(&REPEAT));
+            members.retain(|(name, _)| *name != "required");
+            named(object(&members))
+        }
         Shape::Unknowns(inner) => named(table(inner)),
         Shape::Repeat => named(any_of([refer("number"), list_of("number", 2)])),
         Shape::NamedNumbers | Shape::NamedTargets => named(refer("number")),
