@@ -16,6 +16,7 @@ class Tables:
         name: str,
         /,
         *,
+        library: Any = ...,
         young: Number = ...,
         shear: Number = ...,
         poisson: Number = ...,
@@ -27,7 +28,8 @@ class Tables:
         """A linear elastic material: isotropic with `poisson`; with `shear`, E and G stand for themselves, as along
             the fibres of a composite.
 
-        young: Young's modulus.
+        library: A material that `flexura materials` lists; what stands beside it takes the place of its numbers.
+        young: Young's modulus; needed without `library`.
         shear: Shear modulus.
         poisson: Poisson's ratio, above -1 and at most 0.5.
         density: Density.
@@ -96,6 +98,8 @@ class Tables:
         end: Any = ...,
         shear: Any = ...,
         extension: Any = ...,
+        damping: Number = ...,
+        added_mass: Number = ...,
         distributed: Any = ...,
         foundation: Any = ...,
         repeat: Any = ...,
@@ -112,6 +116,10 @@ class Tables:
         end: Where s = L is held; without it the end is free.
         shear: Sections may shear against the axis.
         extension: The axis may stretch.
+        damping: Time τ of a damping within the material: forces and moments are those of the strains plus τ times
+            their rates.
+        added_mass: Mass per undeformed length that moves with the beam besides its section's and does not weigh, as
+            of a fluid around it.
         distributed: Loads per undeformed length.
         foundation: Elastic foundations: forces per undeformed length that grow with the displacement.
         repeat: Makes a table for every combination of the indices; `{i}` in the name and in texts becomes a number.
@@ -135,7 +143,7 @@ class Tables:
         rotation: Initial orientation.
         mass: Mass.
         center_of_mass: Centre of mass in the body's axes.
-        inertia: About the centre of mass in the body's axes; used by motion only.
+        inertia: About the centre of mass in the body's axes; used by motion and modes.
         repeat: Makes a table for every combination of the indices; `{i}` in the name and in texts becomes a number.
         """
     def joint(
@@ -152,6 +160,7 @@ class Tables:
         effort: Number = ...,
         stiffness: Number = ...,
         rest: Number = ...,
+        damping: Number = ...,
         limits: Any = ...,
         angle: Any = ...,
         position: Any = ...,
@@ -191,6 +200,7 @@ class Tables:
         effort: Loads it by this moment on the child.
         stiffness: A spring on the angle.
         rest: Where the spring is relaxed.
+        damping: Moment against its angular velocity.
         limits: The range of the angle.
         angle: Turning about the axis.
         position: Sliding along the axis.
@@ -243,6 +253,7 @@ class Tables:
         to: Any = ...,
         rest_length: Number = ...,
         size: Number = ...,
+        damping: Number = ...,
         wrap: Any = ...,
         stiffness: Number = ...,
         tension_only: Any = ...,
@@ -265,6 +276,7 @@ class Tables:
         rest_length: Length from which the stretch counts.
         size: Size of the animal relative to the one that the numbers are of: a given `rest_length` and elongations
             count `size` times, areas and forces its square, stiffnesses (N/m) `size` times.
+        damping: Tension against the rate of its length, while it is not slack.
         wrap: What it runs over.
         stiffness: Stiffness.
         tension_only: Carries nothing when it is shorter than its rest length.
@@ -325,6 +337,7 @@ class Tables:
         beam: Any = ...,
         at: Number = ...,
         mass: Number = ...,
+        inertia: Any = ...,
         repeat: Any = ...,
         **keys: Any,
     ) -> Handle:
@@ -333,6 +346,7 @@ class Tables:
         beam: The beam.
         at: Where along it.
         mass: The mass.
+        inertia: About its centre in the axes of the beam's section; used by modes.
         repeat: Makes a table for every combination of the indices; `{i}` in the name and in texts becomes a number.
         """
     def load(

@@ -61,8 +61,10 @@ def test_keywords_make_the_tree_of_the_file() -> None:
 
 
 def test_every_table_of_the_format_is_a_method() -> None:
-    tables = set(json.loads(fx.schema())["properties"]) - {"format", "name", "gravity"}
-    m = fx.Model()
+    of_all = {"format", "name", "gravity", "include", "mass_damping", "spin"}
+    tables = set(json.loads(fx.schema())["properties"]) - of_all
+    m = fx.Model("whirl", mass_damping="2 1/s", spin={"rate": "3 rad/s"})
+    assert "mass_damping" in m.to_toml() and "spin" in m.to_toml()
     assert all(callable(getattr(m, table)) for table in tables)
     assert tables <= set(dir(m))
     with pytest.raises(AttributeError):
