@@ -180,7 +180,7 @@ impl Evaluator {
             self.model.set(&self.prepared.unknown_values()).map_err(unsound)?;
         }
         self.model.set(values).map_err(unsound)?;
-        if let Some(issue) = self.model.validate_mechanism().into_iter().next() {
+        if let Some(issue) = self.model.validate_beside(self.prepared.model()).into_iter().next() {
             return Err(unsound(issue));
         }
         if self.prepared.adopt(&self.model).is_err() {

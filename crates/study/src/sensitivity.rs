@@ -3,12 +3,12 @@
 //! The equilibrium r(x, p) = 0 moves with a parameter by `dx/dp = -J⁻¹ ∂r/∂p`, J factorised once. The load, geometry,
 //! material or drive behind p enters r through sections, rest shapes and places, so ∂r/∂p is the derivative
 //! of the residual at a standing state, and with the direction (dx/dp, 1) an output is a function of one number whose
-//! derivative at zero is wanted. No equilibrium is solved again; the differences are those of `slope.rs`. What is left of them is
-//! about 1e-11 of the derivative.
+//! derivative at zero is wanted. No equilibrium is solved again; the differences are those of `slope.rs`, of order four where that is
+//! enough. What is left of them is about 1e-11 of the derivative.
 
 use crate::Prepared;
 use crate::family::{Family, SMALL, size_of};
-use crate::slope::Slope;
+use crate::slope::{Order, Slope};
 use crate::solve::What;
 use flexura_equilibrium::ProblemError;
 use flexura_model::Model;
@@ -18,13 +18,19 @@ use flexura_solution::{Sensitivities, Solution};
 use flexura_spatial::{Twist, Vector3};
 use nalgebra::{DMatrix, DVector};
 
-/// First relative step of the differences, and by how much the next ones are shorter.
+/// Relative step of differences of order four, and their relative distance from those of order two that is good enough: they are then
+/// wrong by some 1e-11.
+const LIGHT: f64 = 1e-3;
+const NEAR: f64 = 3e-6;
+/// First relative step of those of order six, and by how much the next ones are shorter.
 const FIRST: f64 = 2e-3;
 const SHORTER: f64 = 0.25;
 /// Relative difference of the orders four and six that is good enough: the sixth is then wrong by some 1e-12. How many steps are
 /// tried.
 const AGREED: f64 = 1e-8;
-const TRIES: usize = 5;
+const TRIES: i32 = 5;
+/// Round-off of what is read off, beside its size, over the first step.
+const ROUND: f64 = 1e-13;
 /// Parameters that a warning names.
 const TOLD: usize = 5;
 
@@ -250,28 +256,31 @@ impl Prepared {
         value: f64,
         size: f64,
     ) -> Result<(Vec<Option<f64>>, Vec<f64>), SensitivityError> {
-        let mut h = FIRST * size;
+        let mut tries = vec![(Order::Four, LIGHT * size, NEAR)];
+        tries.extend((0..TRIES).map(|i| (Order::Six, FIRST * size * SHORTER.powi(i), AGREED)));
         let mut best: Vec<Option<Slope>> = Vec::new();
         let mut along = Vec::new();
-        for attempt in 0..TRIES {
+        for (attempt, (order, h, good)) in tries.into_iter().enumerate() {
             // What was read off may have factorised other tangents.
             if attempt == 0 || self.asks_for_tangents() {
                 self.problem.linearise()?;
             }
-            let mut beside = self.beside_of(family, parameter, value, h)?;
+            let mut beside = self.beside_of(family, parameter, value, (order, h))?;
             along = self.state_slope_of(&mut beside)?;
-            let slopes = self.slopes_of(&mut beside, &along, 1e-13 / size, Self::outputs_here)?;
-            if attempt == 0 {
+            // Round-off of a difference goes with 1/h.
+            let noise = if order == Order::Four { ROUND * FIRST / LIGHT } else { ROUND } / size;
+            let slopes = self.slopes_of(&mut beside, &along, noise, Self::outputs_here)?;
+            // The orders are not to be compared with each other.
+            if attempt < 2 {
                 best = slopes;
             } else {
                 for (best, slope) in best.iter_mut().zip(slopes) {
                     *best = best.zip(slope).map(|(old, new)| if new.apart < old.apart { new } else { old });
                 }
             }
-            if best.iter().flatten().all(|slope| slope.apart < AGREED) {
+            if best.iter().flatten().all(|slope| slope.apart < good) {
                 break;
             }
-            h *= SHORTER;
         }
         Ok((best.iter().map(|slope| slope.map(|slope| slope.value)).collect(), along))
     }

@@ -1,9 +1,10 @@
 //! Derivatives by a parameter at a standing state: the one recipe of differences.
 //!
 //! The numbers of a model follow their parameters exactly ([`Model::at`]); what the residual and the outputs make of them on the
-//! mesh at hand is differentiated by central differences of order six at ±h, ±2h, ±3h. The same values give those of order four,
-//! and what lies between the two bounds the error: with h a few thousandths of the parameter's size the sixth order is wrong by
-//! about the 3/2 power of it. The laws of the six places are made once, for the state's slope and for what is read off.
+//! mesh at hand is differentiated by central differences: of order four at ±h, ±2h, or of order six at ±3h besides. The same values
+//! give those of the order below, and what lies between the two bounds the error: with h a thousandth of the parameter's size the
+//! fourth order is wrong by about the square of it, and the sixth by its 3/2 power. The laws of the places are made once, for the
+//! state's slope and for what is read off.
 
 use crate::Prepared;
 use crate::family::Family;
@@ -13,11 +14,40 @@ use flexura_equilibrium::{CENTRAL, Law};
 use flexura_model::Model;
 use flexura_nonlinear::System;
 
-/// Weights of order four at the places of [`CENTRAL`], whose own are of order six.
-const FOURTH: [f64; 6] = [8.0 / 12.0, -8.0 / 12.0, -1.0 / 12.0, 1.0 / 12.0, 0.0, 0.0];
+/// Differences at the first few of the places of [`CENTRAL`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Order {
+    Four,
+    Six,
+}
+
+impl Order {
+    /// Places, weights, and weights of the order below.
+    fn rule(self) -> &'static [[f64; 3]] {
+        const FOUR: [[f64; 3]; 4] = [
+            [1.0, 8.0 / 12.0, 0.5],
+            [-1.0, -8.0 / 12.0, -0.5],
+            [2.0, -1.0 / 12.0, 0.0],
+            [-2.0, 1.0 / 12.0, 0.0],
+        ];
+        const SIX: [[f64; 3]; 6] = [
+            [CENTRAL[0].0, CENTRAL[0].1, 8.0 / 12.0],
+            [CENTRAL[1].0, CENTRAL[1].1, -8.0 / 12.0],
+            [CENTRAL[2].0, CENTRAL[2].1, -1.0 / 12.0],
+            [CENTRAL[3].0, CENTRAL[3].1, 1.0 / 12.0],
+            [CENTRAL[4].0, CENTRAL[4].1, 0.0],
+            [CENTRAL[5].0, CENTRAL[5].1, 0.0],
+        ];
+        match self {
+            Order::Four => &FOUR,
+            Order::Six => &SIX,
+        }
+    }
+}
 
 /// The laws of the mechanisms beside the present one.
 pub(crate) struct Beside {
+    order: Order,
     h: f64,
     /// Parallel to the places; None while one is in use.
     laws: Vec<Option<Law>>,
@@ -26,14 +56,14 @@ pub(crate) struct Beside {
 /// A derivative by a parameter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slope {
-    /// Of order six.
+    /// Of the order of its places.
     pub value: f64,
-    /// How far that of order four is from it, relative to the larger of the two; zero where that is round-off.
+    /// How far that of the order below is from it, relative to the larger of the two; zero where that is round-off.
     pub apart: f64,
 }
 
 impl Prepared {
-    /// The laws at six places beside `value` of a parameter, `h` apart.
+    /// The laws at the places beside `value` of a parameter, `h` apart.
     ///
     /// # Errors
     /// A neighbouring model is none.
@@ -42,13 +72,13 @@ impl Prepared {
         family: &mut dyn Family,
         parameter: usize,
         value: f64,
-        h: f64,
+        (order, h): (Order, f64),
     ) -> Result<Beside, SensitivityError> {
-        let mut laws = Vec::with_capacity(CENTRAL.len());
-        for (place, _) in CENTRAL {
+        let mut laws = Vec::with_capacity(order.rule().len());
+        for [place, ..] in order.rule() {
             laws.push(Some(family.law(&self.problem, &self.values_with(parameter, value + place * h))?));
         }
-        Ok(Beside { h, laws })
+        Ok(Beside { order, h, laws })
     }
 
     /// Does something under each of the laws; the present law is put back.
@@ -57,8 +87,9 @@ impl Prepared {
         beside: &mut Beside,
         mut there: impl FnMut(&mut Self, f64) -> Result<T, SensitivityError>,
     ) -> Result<Vec<T>, SensitivityError> {
-        let mut found = Vec::with_capacity(CENTRAL.len());
-        for ((place, _), slot) in CENTRAL.iter().zip(&mut beside.laws) {
+        let rule = beside.order.rule();
+        let mut found = Vec::with_capacity(rule.len());
+        for ([place, ..], slot) in rule.iter().zip(&mut beside.laws) {
             let Some(law) = slot.take() else { continue };
             let own = self.problem.exchange(law);
             let outcome = there(self, place * beside.h);
@@ -76,7 +107,7 @@ impl Prepared {
         let mut kept = Vec::new();
         self.problem.store(&mut kept);
         let n = self.problem.unknowns();
-        let h = beside.h;
+        let (rule, h) = (beside.order.rule(), beside.h);
         let steps = self.under_each(beside, |prepared, _| {
             let outcome = prepared.problem.residual();
             let mut step = vec![0.0; n];
@@ -87,7 +118,7 @@ impl Prepared {
         });
         self.problem.restore(&kept);
         let mut sum = vec![0.0; n];
-        for ((_, weight), step) in CENTRAL.iter().zip(&steps?) {
+        for ([_, weight, _], step) in rule.iter().zip(&steps?) {
             sum.iter_mut().zip(step).for_each(|(s, d)| *s += weight / h * d);
         }
         Ok(sum)
@@ -107,7 +138,7 @@ impl Prepared {
     ) -> Result<Vec<Option<Slope>>, SensitivityError> {
         let mut kept = Vec::new();
         self.problem.store(&mut kept);
-        let h = beside.h;
+        let (rule, h) = (beside.order.rule(), beside.h);
         let all = self.under_each(beside, |prepared, by| {
             let step: Vec<f64> = along.iter().map(|v| v * by).collect();
             prepared.problem.retract(&step);
@@ -119,16 +150,16 @@ impl Prepared {
         let all = all?;
         let count = all.first().map_or(0, Vec::len);
         let slope = |k: usize| {
-            let (mut six, mut four, mut level) = (0.0, 0.0, 0.0_f64);
-            for (((_, w6), w4), values) in CENTRAL.iter().zip(&FOURTH).zip(&all) {
+            let (mut value, mut below, mut level) = (0.0, 0.0, 0.0_f64);
+            for ([_, own, other], values) in rule.iter().zip(&all) {
                 let y = values[k]?;
-                six += w6 / h * y;
-                four += w4 / h * y;
+                value += own / h * y;
+                below += other / h * y;
                 level = level.max(y.abs());
             }
-            let size = six.abs().max(four.abs()).max(f64::MIN_POSITIVE);
-            let apart = ((six - four).abs() - noise * level).max(0.0) / size;
-            Some(Slope { value: six, apart })
+            let size = f64::abs(value).max(f64::abs(below)).max(f64::MIN_POSITIVE);
+            let apart = (f64::abs(value - below) - noise * level).max(0.0) / size;
+            Some(Slope { value, apart })
         };
         Ok((0..count).map(slope).collect())
     }
@@ -144,7 +175,7 @@ impl Prepared {
         value: f64,
         h: f64,
     ) -> Result<Vec<f64>, SensitivityError> {
-        let mut beside = self.beside_of(family, parameter, value, h)?;
+        let mut beside = self.beside_of(family, parameter, value, (Order::Six, h))?;
         self.state_slope_of(&mut beside)
     }
 }
