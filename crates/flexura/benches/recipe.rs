@@ -72,7 +72,10 @@ fn laminate(is_plain: bool) -> Model {
     let values = values.map(|(name, value)| (name.to_string(), value.to_string()));
     let mut model = Document::read(path).and_then(|file| file.model(&values)).expect("a good model");
     if is_plain {
-        let Shape::Rectangle { width, .. } = &mut model.sections[0].shape else { unreachable!("it is one") };
+        let section = model.beams[0].section;
+        let Shape::Rectangle { width, .. } = &mut model.sections[section.0].shape else {
+            unreachable!("it is one")
+        };
         *width = WIDTH.into();
     }
     model

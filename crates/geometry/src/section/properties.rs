@@ -57,13 +57,23 @@ impl Solid {
         }))
     }
 
+    fn area(&self) -> f64 {
+        match *self {
+            Solid::Rectangle { width, height } => width * height,
+            Solid::Ellipse { width, height } => PI * (0.5 * width) * (0.5 * height),
+            // Factors, so that a thin wall loses no digits.
+            Solid::Tube { outer, inner } => PI * (0.5 * outer - 0.5 * inner) * (0.5 * outer + 0.5 * inner),
+        }
+    }
+
     /// Its properties for Poisson's ratio `nu` (which only the shear coefficients depend on).
     pub fn properties(&self, nu: f64) -> Properties {
+        let area = self.area();
         match *self {
             Solid::Rectangle { width, height } => {
                 let shear = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu);
                 Properties {
-                    area: width * height,
+                    area,
                     i2: width * height.powi(3) / 12.0,
                     i3: height * width.powi(3) / 12.0,
                     j: rectangle_constant(width, height),
@@ -74,7 +84,7 @@ impl Solid {
             Solid::Ellipse { width, height } => {
                 let (a, b) = (0.5 * width, 0.5 * height);
                 Properties {
-                    area: PI * a * b,
+                    area,
                     i2: 0.25 * PI * a * b.powi(3),
                     i3: 0.25 * PI * b * a.powi(3),
                     j: PI * (a * b).powi(3) / (a * a + b * b),
@@ -84,8 +94,6 @@ impl Solid {
             }
             Solid::Tube { outer, inner } => {
                 let (a, b) = (0.5 * outer, 0.5 * inner);
-                // Factors, so that a thin wall loses no digits.
-                let area = PI * (a - b) * (a + b);
                 let i = 0.25 * area * (a * a + b * b);
                 let m2 = (b / a).powi(2);
                 let shear = 6.0 * (1.0 + nu) * (1.0 + m2).powi(2)
@@ -159,7 +167,7 @@ pub fn mass_per_length(
         }
         _ => {
             let density = material.and_then(|material| material.density).unwrap_or(0.0);
-            Ok(properties(section, s, length, 0.0)?.map_or(0.0, |p| density * p.area))
+            Ok(Solid::at(&section.shape, s, length)?.map_or(0.0, |solid| density * solid.area()))
         }
     }
 }

@@ -18,8 +18,9 @@ const LAST: u32 = 25;
 /// `J = a b³ [1/3 - (64/π⁵)(b/a) Σ tanh(nπa/2b)/n⁵]`, n odd.
 pub(super) fn rectangle_constant(width: f64, height: f64) -> f64 {
     let (a, b) = (width.max(height), width.min(height));
-    // tanh x = 1 - 2/(exp 2x + 1)
-    let rest: f64 = odd().map(|n| 2.0 / ((n * PI * a / b).exp() + 1.0) / n.powi(5)).sum();
+    // tanh x = 1 - 2/(exp 2x + 1); of a strip the first term is nothing already.
+    let terms = odd().map(|n| 2.0 / ((n * PI * a / b).exp() + 1.0) / n.powi(5));
+    let rest: f64 = terms.take_while(|term| *term > 1e-18).sum();
     let sum = SUM_FIFTH - rest;
     a * b.powi(3) * (1.0 / 3.0 - 64.0 / PI.powi(5) * (b / a) * sum)
 }
