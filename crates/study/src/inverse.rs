@@ -28,7 +28,7 @@ const NEAR: f64 = 0.5;
 const REACH: f64 = 0.05;
 /// Contraction that a step must show, and that lets the old derivatives serve on.
 const CONTRACTING: f64 = 0.5;
-const FAST: f64 = 0.1;
+const FAST: f64 = 0.01;
 /// Shortest step of the targets, and most of them.
 const SHORTEST: f64 = 1e-5;
 const MOST: usize = 2000;
