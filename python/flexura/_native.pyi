@@ -46,7 +46,7 @@ class Mechanism:
         inputs: list[str],
         outputs: list[str],
         damping_ratio: float,
-        residual_vectors: int,
+        residual_vectors: int | None,
     ) -> tuple[str, bytes, str]: ...
     def run(self, name: str, values: list[tuple[str, float | str]], tolerance: float, shapes: int) -> Study: ...
 

@@ -193,7 +193,7 @@ impl Mechanism {
         inputs: Vec<String>,
         outputs: Vec<String>,
         damping_ratio: f64,
-        residual_vectors: usize,
+        residual_vectors: Option<usize>,
     ) -> PyResult<(String, Vec<u8>, String)> {
         let given = self.given(py, values)?;
         let made = released(py, |interrupt| -> Result<_, Wrong> {

@@ -22,9 +22,12 @@ fn cantilever(more: &str) -> String {
 }
 
 fn ask(text: &str, request: &StateSpaceRequest, count: usize) -> Result<StateSpace, ProblemError> {
+    ask_about(text, request, ModesStudy { count, at_rest: true, path: None })
+}
+
+fn ask_about(text: &str, request: &StateSpaceRequest, study: ModesStudy) -> Result<StateSpace, ProblemError> {
     let model =
         Document::parse(text, "cantilever.toml").expect("a good file").model(&[]).expect("a good model");
-    let study = ModesStudy { count, at_rest: true, path: None };
     state_space(&model, &study, request, &Options::default(), &mut |_| {})
 }
 
@@ -69,8 +72,9 @@ fn residues_of_a_cantilever_are_those_of_its_normalised_shapes() {
 #[test]
 fn the_reduced_response_with_residual_vectors_is_the_receptance_of_the_tip() {
     let mut wanted = request(&["load.tip.force.y"], &["tip"]);
+    wanted.residual_vectors = Some(0);
     let plain = ask(&cantilever(""), &wanted, 6).expect("a sound model");
-    wanted.residual_vectors = 3;
+    wanted.residual_vectors = Some(3);
     let space = ask(&cantilever(""), &wanted, 6).expect("a sound model");
     let exact = |square: f64| {
         let beta = square.powf(0.25);
@@ -96,6 +100,102 @@ fn the_reduced_response_with_residual_vectors_is_the_receptance_of_the_tip() {
 }
 
 #[test]
+fn as_few_residual_vectors_join_as_bring_the_response_within_a_millionth() {
+    let wanted = request(&["load.tip.force.y"], &["tip"]);
+    let space = ask(&cantilever(""), &wanted, 6).expect("a sound model");
+    let added = space.residual_vectors;
+    assert!((1..=3).contains(&added) && space.solution.warnings.is_empty(), "{added}");
+    assert!(space.error_estimate.expect("compared") <= 1e-6);
+    let last = space.squares[..space.modes].iter().copied().fold(0.0, f64::max);
+    for i in 1..100 {
+        let square = last * (f64::from(i) / 100.0).powi(2);
+        let beta = square.powf(0.25);
+        let exact = (beta.sin() * beta.cosh() - beta.cos() * beta.sinh())
+            / (beta.powi(3) * (1.0 + beta.cos() * beta.cosh()));
+        let apart = (response(&space, square) - exact).abs();
+        assert!(apart < 1e-6 * exact.abs().max(1.0 / 3.0), "{apart:e} at {square}");
+    }
+    // One fewer would not do.
+    let fewer = StateSpaceRequest { residual_vectors: Some(added - 1), ..wanted.clone() };
+    let fewer = ask(&cantilever(""), &fewer, 6).expect("a sound model");
+    assert_eq!(fewer.residual_vectors, added - 1);
+    assert!(fewer.error_estimate.expect("compared") > 1e-6);
+}
+
+#[test]
+fn an_acceleration_is_compared_as_what_it_is() {
+    // Nothing of an acceleration goes through by static correction, so that modes alone are far off.
+    let modes = StateSpaceRequest {
+        residual_vectors: Some(0),
+        ..request(&["load.tip.force.y"], &["tip", "tip.acceleration"])
+    };
+    let plain = ask(&cantilever(""), &modes, 6).expect("a sound model");
+    assert!(plain.error_estimate.expect("compared") > 1e-4);
+    let space =
+        ask(&cantilever(""), &StateSpaceRequest { residual_vectors: None, ..modes }, 6).expect("sound");
+    assert!(space.error_estimate.expect("compared") <= 1e-6);
+    for omega in [1.0_f64, 10.0, 40.0, 80.0, 150.0, 250.0] {
+        let [of_place, of_rate] = [0, 1].map(|k| space.response(omega).expect("no pole")[k][0][0]);
+        close(of_rate, -omega * omega * of_place, 1e-6);
+    }
+}
+
+/// The platform of six rods, loaded by nothing, with a plate of 0.2 kg.
+fn platform() -> String {
+    let text = include_str!("../../../models/six_rod_robot.toml");
+    let (text, _) = text.split_once("\n[unknown]").expect("an inverse problem");
+    let text = text.replace("poisson = 0.305", "poisson = 0.305\ndensity = \"7800 kg/m^3\"").replace(
+        "[body.plate]\n",
+        "[body.plate]\nmass = \"0.2 kg\"\ninertia = [\"5e-4 kg*m^2\", \"5e-4 kg*m^2\", \"1e-3 kg*m^2\"]\n",
+    );
+    format!(
+        "{text}\n[load.push]\nbody = \"plate\"\nforce = [\"1e-6 N\", \"1e-6 N\", \"1e-6 N\"]\n\
+         [load.side]\nbody = \"plate\"\nat = [\"60 mm\", \"30 mm\", 0]\nforce = [\"1e-6 N\", \"1e-6 N\", \"1e-6 N\"]\n\
+         [output]\nplate = \"body.plate.position\"\n"
+    )
+}
+
+/// The largest difference of the undamped responses up to a circular frequency, beside the largest of each output.
+fn apart(near: &StateSpace, whole: &StateSpace, last: f64) -> f64 {
+    let mut worst = 0.0_f64;
+    for i in 0..20 {
+        let omega = last * (f64::from(i) + 0.37) / 20.0;
+        let [near, whole] = [near, whole].map(|space| space.response(omega).expect("no pole"));
+        for u in 0..whole[0].len() {
+            let size = whole.iter().map(|row| row[u][0].abs()).fold(0.0, f64::max);
+            for (near, whole) in near.iter().zip(&whole) {
+                worst = worst.max((near[u][0] - whole[u][0]).abs() / size);
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn a_platform_of_six_inputs_takes_residual_vectors_for_each() {
+    let ask = |count, residual_vectors| {
+        let study = ModesStudy { count, at_rest: false, path: None };
+        let wanted = StateSpaceRequest { residual_vectors, ..request(&[], &["plate"]) };
+        ask_about(&platform(), &wanted, study).expect("a sound model")
+    };
+    let whole = ask(30, Some(2));
+    let warned =
+        |space: &StateSpace| space.solution.warnings.iter().any(|text| text.starts_with("the state space"));
+    // Three modes of the plate on its rods, far below those of the rods themselves.
+    let space = ask(3, None);
+    assert_eq!((space.inputs.len(), space.outputs.len()), (6, 3));
+    let last = space.squares[2].sqrt();
+    let (error, found) = (space.error_estimate.expect("compared"), apart(&space, &whole, last));
+    assert!(!warned(&space) && (1..=3).contains(&space.residual_vectors), "{}", space.residual_vectors);
+    assert!(error <= 1e-6 && found < 1e-6, "{error:e} {found:e}");
+    // The sixth is one of many rods' that lie together: what is left out is too near to be replaced, and that is said.
+    let space = ask(6, None);
+    let last = space.squares[..6].iter().copied().fold(0.0, f64::max).sqrt();
+    assert!(warned(&space) && space.residual_vectors == 3, "{:?}", space.solution.warnings);
+    assert!(space.error_estimate.expect("compared") > 1e-6 && apart(&space, &whole, last) > 1e-6);
+}
+
+#[test]
 fn an_acceleration_of_the_ground_drives_modes_by_their_effective_masses() {
     let space =
         ask(&cantilever(""), &request(&["ground.acceleration.y"], &["tip"]), 8).expect("a sound model");
@@ -111,6 +211,7 @@ fn an_acceleration_of_the_ground_drives_modes_by_their_effective_masses() {
 fn damping_of_beams_and_of_modes_stands_in_the_rates() {
     let mut wanted = request(&["load.tip.force.y"], &["tip", "tip.velocity", "tip.acceleration"]);
     wanted.damping_ratio = 0.02;
+    wanted.residual_vectors = Some(0);
     let damped = cantilever("damping = \"1e-3 s\"");
     let space = ask(&damped, &wanted, 4).expect("a sound model");
     let n = space.squares.len();
@@ -129,7 +230,7 @@ fn damping_of_beams_and_of_modes_stands_in_the_rates() {
 fn a_damped_response_is_the_receptance_with_a_complex_stiffness() {
     let time = 2e-3;
     let mut wanted = request(&["load.tip.force.y"], &["tip"]);
-    wanted.residual_vectors = 3;
+    wanted.residual_vectors = Some(3);
     let space = ask(&cantilever("damping = \"2e-3 s\""), &wanted, 6).expect("a sound model");
     let last = space.squares[..space.modes].iter().copied().fold(0.0, f64::max).sqrt();
     let one = Complex::new(1.0, 0.0);

@@ -31,6 +31,8 @@ pub struct StateSpaceDocument {
     pub outputs: Vec<SignalDocument>,
     /// How many of the coordinates are modes; the others are residual vectors.
     pub modes: usize,
+    /// Residual vectors for each input.
+    pub residual_vectors: usize,
     /// ω² of the coordinates, rad²/s².
     pub omega_squared: Vec<f64>,
     /// Rows of A.
@@ -96,6 +98,7 @@ pub fn state_space_document(model: &Model, space: &StateSpace) -> Result<StateSp
         inputs: list(&space.inputs),
         outputs: list(&space.outputs),
         modes: space.modes,
+        residual_vectors: space.residual_vectors,
         omega_squared: matrix(std::slice::from_ref(&space.squares), "omega_squared")?.concat(),
         a: matrix(&space.a, "a")?,
         b: matrix(&space.b, "b")?,

@@ -18,6 +18,8 @@ pub struct StateSpace {
     pub squares: Vec<f64>,
     /// How many of the coordinates are modes; the others are residual vectors.
     pub modes: usize,
+    /// How many residual vectors there are for each input, fewer where they told nothing new.
+    pub residual_vectors: usize,
     /// Rows of A.
     pub a: Vec<Vec<f64>>,
     /// Rows of B, a column for each input.

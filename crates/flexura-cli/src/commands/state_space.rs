@@ -48,7 +48,7 @@ pub fn write(task: &Task, name: &str, study: &ModesStudy, arguments: &ModesArgum
         inputs: arguments.input.clone(),
         outputs: arguments.measure.clone(),
         damping_ratio: arguments.damping_ratio.unwrap_or(0.0),
-        residual_vectors: arguments.residual_vectors.unwrap_or(0),
+        residual_vectors: arguments.residual_vectors,
     };
     let space = state_space(&task.model, study, &request, &task.options, &mut |_| {})
         .map_err(|error| study_failure(&task.file, name, &error))?;
@@ -78,9 +78,14 @@ fn tell(space: &StateSpace) {
         .filter(|text| text.starts_with("the state space"))
         .for_each(|text| screen::warn(text));
     if let Some(error) = space.error_estimate {
-        let advice = if error > COARSE { "; more modes or --residual-vectors 2 come nearer" } else { "" };
+        let advice = if error > COARSE { "; more modes come nearer" } else { "" };
+        let added = match space.residual_vectors {
+            0 => String::new(),
+            1 => " with a residual vector for each input".to_string(),
+            count => format!(" with {count} residual vectors for each input"),
+        };
         screen::note(&format!(
-            "state space: {} states, up to its last mode off by {error:.0e} of the largest response{advice}",
+            "state space: {} states{added}, up to its last mode off by {error:.0e} of the largest response{advice}",
             space.a.len()
         ));
     }

@@ -12,6 +12,7 @@
 
 mod read;
 mod signals;
+mod whole;
 
 use super::pencil::{Bench, SHARP, Start, Trouble};
 use super::{Aim, Spectrum, counted, explain, refuse, spectrum, stand};
@@ -23,11 +24,15 @@ use flexura_solution::{Solution, StateSpace, Status};
 use nalgebra::{DMatrix, SymmetricEigen};
 use read::Reader;
 use signals::{Input, Measure, Wanted};
+use whole::{Place, Reduced};
 
 /// Part of a residual vector that must be new.
 const NEW: f64 = 1e-7;
 /// Where below zero a mechanism with motions without stiffness is looked at, beside its first ω².
 const BELOW: f64 = -0.1;
+/// How near the reduced response comes where nothing says how many residual vectors it has, and how many it has at most.
+const NEAR: f64 = 1e-6;
+const MOST: usize = 3;
 
 /// What is asked of a linear model.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,8 +44,8 @@ pub struct StateSpaceRequest {
     pub outputs: Vec<String>,
     /// Damping of every mode beside what the model has, as a part of critical damping.
     pub damping_ratio: f64,
-    /// Residual vectors for each input.
-    pub residual_vectors: usize,
+    /// Residual vectors for each input; None: the fewest, up to three, by which the response comes within 1e-6 of the whole one.
+    pub residual_vectors: Option<usize>,
 }
 
 /// Vectors of a pencil, orthonormal in M, that diagonalise K.
@@ -98,7 +103,7 @@ fn check(request: &StateSpaceRequest) -> Result<(), ProblemError> {
     if !(request.damping_ratio >= 0.0 && request.damping_ratio.is_finite()) {
         return wrong("asks for a negative damping ratio", "write a part of critical damping, like 0.01");
     }
-    if request.residual_vectors > 20 {
+    if request.residual_vectors.is_some_and(|count| count > 20) {
         return wrong("asks for more than 20 residual vectors an input", "two or three are as good as all");
     }
     Ok(())
@@ -111,6 +116,7 @@ fn empty(solution: Solution) -> StateSpace {
         outputs: Vec::new(),
         squares: Vec::new(),
         modes: 0,
+        residual_vectors: 0,
         a: Vec::new(),
         b: Vec::new(),
         c: Vec::new(),
@@ -242,31 +248,100 @@ impl<'p> Builder<'p> {
         self.reader.along(self.problem.model(), &swing, self.vibration.length, wanted)
     }
 
-    fn build(
-        mut self,
-        solution: Solution,
-        request: &StateSpaceRequest,
+    /// Readings by each input's answer of the pencil as it is factorised.
+    fn answers(&mut self, wanted: &[Wanted]) -> Result<Vec<Vec<f64>>, ProblemError> {
+        let drives = self.drives.clone();
+        drives
+            .iter()
+            .map(|b| {
+                let x = self.solved(b);
+                self.read(wanted, &x)
+            })
+            .collect()
+    }
+
+    /// The response of the whole pencil where the reduced one is held beside it. Leaves K - σ M factorised as it was.
+    fn whole(&mut self, wanted: &[Wanted]) -> Result<Vec<Place>, ProblemError> {
+        let mut found = Vec::new();
+        for (square, is_midway) in whole::places(&self.basis.squares[..self.basis.modes]) {
+            if self.factorise(square).is_ok() {
+                found.push(Place { square, is_midway, readings: self.answers(wanted)? });
+            }
+        }
+        self.factorise(self.sigma).map_err(|error| explain(&Trouble::Breakdown(error)))?;
+        Ok(found)
+    }
+
+    /// The response with so many residual vectors, which join the modes in the basis. `known` are readings of the modes, `still` those
+    /// of the whole pencil at σ.
+    fn reduce(
+        &mut self,
+        count: usize,
         wanted: &[Wanted],
-    ) -> Result<StateSpace, ProblemError> {
-        self.add_residuals(request.residual_vectors);
-        let (n, unit) = (self.basis.vectors.len(), self.vibration.unit);
-        // q of 1 m·√kg moves by this much of a vector that is one in M.
-        let size = 1.0 / (self.vibration.length * self.vibration.mass.sqrt());
-        let readings: Vec<Vec<f64>> =
-            self.basis.vectors.iter().map(|x| self.read(wanted, x)).collect::<Result<_, _>>()?;
+        known: &[Vec<f64>],
+        still: &[Vec<f64>],
+    ) -> Result<Reduced, ProblemError> {
+        self.basis.squares.truncate(self.basis.modes);
+        self.basis.vectors.truncate(self.basis.modes);
+        self.add_residuals(count);
+        let mut readings = known.to_vec();
+        for x in &self.basis.vectors[self.basis.modes..] {
+            readings.push(self.read(wanted, x)?);
+        }
         let shares: Vec<Vec<f64>> =
             self.drives.iter().map(|b| self.basis.vectors.iter().map(|x| dot(x, b)).collect()).collect();
-        let mut feedthrough = Vec::with_capacity(self.drives.len());
-        for (b, shares) in self.drives.clone().iter().zip(&shares) {
-            let x = self.solved(b);
-            let mut rest = self.read(wanted, &x)?;
+        let mut feedthrough = still.to_vec();
+        for (rest, shares) in feedthrough.iter_mut().zip(&shares) {
             for ((reading, share), square) in readings.iter().zip(shares).zip(&self.basis.squares) {
                 let part = share / (square - self.sigma);
                 rest.iter_mut().zip(reading).for_each(|(rest, reading)| *rest -= part * reading);
             }
-            feedthrough.push(rest);
         }
-        let error_estimate = self.compare(wanted, &readings, &shares, &feedthrough)?;
+        Ok(Reduced { readings, shares, feedthrough })
+    }
+
+    /// The response with as many residual vectors as were asked for, or as few as bring it near; how many, and how near.
+    fn nearest(
+        &mut self,
+        asked: Option<usize>,
+        wanted: &[Wanted],
+        warnings: &mut Vec<String>,
+    ) -> Result<(Reduced, usize, Option<f64>), ProblemError> {
+        let whole = self.whole(wanted)?;
+        let still = self.answers(wanted)?;
+        let known: Vec<Vec<f64>> =
+            self.basis.vectors.iter().map(|x| self.read(wanted, x)).collect::<Result<_, _>>()?;
+        let mut count = asked.unwrap_or(0);
+        loop {
+            let reduced = self.reduce(count, wanted, &known, &still)?;
+            let error = whole::apart(&whole, &reduced, &self.basis.squares, wanted, self.drives.len());
+            let is_near = error.is_none_or(|error| error <= NEAR);
+            if asked.is_none() && !is_near && count < MOST {
+                count += 1;
+                continue;
+            }
+            if let (None, Some(error), false) = (asked, error, is_near) {
+                warnings.push(format!(
+                    "the state space is off by {error:.0e} of the largest response even with {count} residual vectors an input; \
+                     more modes come nearer"
+                ));
+            }
+            return Ok((reduced, count, error));
+        }
+    }
+
+    fn build(
+        mut self,
+        mut solution: Solution,
+        request: &StateSpaceRequest,
+        wanted: &[Wanted],
+    ) -> Result<StateSpace, ProblemError> {
+        let (reduced, residual_vectors, error_estimate) =
+            self.nearest(request.residual_vectors, wanted, &mut solution.warnings)?;
+        let Reduced { readings, shares, feedthrough } = reduced;
+        let (n, unit) = (self.basis.vectors.len(), self.vibration.unit);
+        // q of 1 m·√kg moves by this much of a vector that is one in M.
+        let size = 1.0 / (self.vibration.length * self.vibration.mass.sqrt());
         let squares: Vec<f64> = self.basis.squares.iter().map(|square| square * unit).collect();
         let drag = self.drag(&squares, request.damping_ratio);
         let mut a = vec![vec![0.0; 2 * n]; 2 * n];
@@ -308,6 +383,7 @@ impl<'p> Builder<'p> {
             outputs: wanted.iter().map(|output| output.signal.clone()).collect(),
             squares,
             modes: self.basis.modes,
+            residual_vectors,
             a,
             b,
             c,
@@ -332,51 +408,6 @@ impl<'p> Builder<'p> {
             drag[(i, i)] += 2.0 * ratio * square.max(0.0).sqrt();
         }
         drag
-    }
-
-    /// The largest difference between the reduced response and that of the whole pencil, both without damping, between resonances.
-    fn compare(
-        &mut self,
-        wanted: &[Wanted],
-        readings: &[Vec<f64>],
-        shares: &[Vec<f64>],
-        feedthrough: &[Vec<f64>],
-    ) -> Result<Option<f64>, ProblemError> {
-        let mut known: Vec<f64> =
-            self.basis.squares[..self.basis.modes].iter().copied().filter(|square| *square > 0.0).collect();
-        known.insert(0, 0.0);
-        let places: Vec<f64> = known.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
-        let (outputs, inputs) = (wanted.len(), self.drives.len());
-        let mut largest = vec![vec![0.0_f64; outputs]; inputs];
-        let mut apart = largest.clone();
-        for square in places {
-            if self.factorise(square).is_err() {
-                continue;
-            }
-            for (u, b) in self.drives.clone().iter().enumerate() {
-                let x = self.solved(b);
-                let whole = self.read(wanted, &x)?;
-                for (k, whole) in whole.iter().enumerate() {
-                    let modal = readings.iter().zip(&shares[u]).zip(&self.basis.squares);
-                    let reduced: f64 = feedthrough[u][k]
-                        + modal
-                            .map(|((reading, share), own)| reading[k] * share / (own - square))
-                            .sum::<f64>();
-                    largest[u][k] = largest[u][k].max(whole.abs());
-                    apart[u][k] = apart[u][k].max((reduced - whole).abs());
-                }
-            }
-        }
-        // What does not answer to an input but by round-off is left out.
-        let each = largest.iter().zip(&apart).flat_map(|(largest, apart)| {
-            let most = largest.iter().copied().fold(0.0, f64::max);
-            largest
-                .iter()
-                .zip(apart)
-                .filter(move |(size, _)| **size > 1e-9 * most)
-                .map(|(size, apart)| apart / size)
-        });
-        Ok(each.reduce(f64::max))
     }
 }
 
