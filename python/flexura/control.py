@@ -66,6 +66,11 @@ class StateSpace:
         error = self.document["response_error"]
         return None if error is None else float(error)
 
+    @property
+    def residual_vectors(self) -> int:
+        """How many residual vectors there are for each input."""
+        return int(self.document["residual_vectors"])
+
     def response(self, omega: Any) -> Array:
         """C (iω - A)⁻¹ B + D at circular frequencies (rad/s): (n, outputs, inputs), complex."""
         rates = np.atleast_1d(np.asarray(omega, dtype=float))

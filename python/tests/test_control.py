@@ -104,3 +104,10 @@ def test_python_control_takes_the_names(space: fx.StateSpace) -> None:
 def test_an_input_that_there_is_not_is_refused() -> None:
     with pytest.raises(fx.FlexuraError, match=r"load\.top"):
         fx.loads(CANTILEVER).state_space(inputs=["load.top.force.y"])
+
+
+def test_residual_vectors_join_by_themselves_until_the_response_is_near() -> None:
+    space = fx.loads(CANTILEVER).state_space(6, at_rest=True, inputs=["load.tip.force.y"], outputs=["tip"])
+    assert space.response_error is not None
+    assert 1 <= space.residual_vectors <= 3
+    assert space.response_error <= 1e-6
