@@ -62,7 +62,7 @@ class StateSpace:
 
     @property
     def response_error(self) -> float | None:
-        """Largest difference from the undamped response of the whole mechanism up to the last mode, beside the largest response."""
+        """Largest difference from the undamped response of the whole mechanism up to the last mode, beside the response's size."""
         error = self.document["response_error"]
         return None if error is None else float(error)
 

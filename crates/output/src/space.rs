@@ -43,7 +43,7 @@ pub struct StateSpaceDocument {
     pub c: Vec<Vec<f64>>,
     /// Rows of D.
     pub d: Vec<Vec<f64>>,
-    /// Largest difference from the undamped response of the whole mechanism up to the last mode, beside the largest response.
+    /// Largest difference from the undamped response of the whole mechanism up to the last mode, beside the response's size.
     pub response_error: Option<f64>,
     /// Estimated largest relative error of the equilibrium.
     pub error_estimate: Option<f64>,

@@ -29,7 +29,8 @@ pub struct StateSpace {
     /// Rows of D.
     pub d: Vec<Vec<f64>>,
     /// Largest difference from the response of all that the mechanism can do, between standstill and the last mode, without damping,
-    /// beside the largest response of the same output to the same input; None where nothing was compared.
+    /// beside the size of the response at the same frequency, its coordinates' parts without their signs; None where nothing was
+    /// compared.
     pub error_estimate: Option<f64>,
 }
 

@@ -85,7 +85,7 @@ fn tell(space: &StateSpace) {
             count => format!(" with {count} residual vectors for each input"),
         };
         screen::note(&format!(
-            "state space: {} states{added}, up to its last mode off by {error:.0e} of the largest response{advice}",
+            "state space: {} states{added}, up to its last mode off by {error:.0e} of the response{advice}",
             space.a.len()
         ));
     }

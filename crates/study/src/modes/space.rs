@@ -263,9 +263,9 @@ impl<'p> Builder<'p> {
     /// The response of the whole pencil where the reduced one is held beside it. Leaves K - σ M factorised as it was.
     fn whole(&mut self, wanted: &[Wanted]) -> Result<Vec<Place>, ProblemError> {
         let mut found = Vec::new();
-        for (square, is_midway) in whole::places(&self.basis.squares[..self.basis.modes]) {
+        for square in whole::places(&self.basis.squares[..self.basis.modes]) {
             if self.factorise(square).is_ok() {
-                found.push(Place { square, is_midway, readings: self.answers(wanted)? });
+                found.push(Place { square, readings: self.answers(wanted)? });
             }
         }
         self.factorise(self.sigma).map_err(|error| explain(&Trouble::Breakdown(error)))?;
@@ -322,7 +322,7 @@ impl<'p> Builder<'p> {
             }
             if let (None, Some(error), false) = (asked, error, is_near) {
                 warnings.push(format!(
-                    "the state space is off by {error:.0e} of the largest response even with {count} residual vectors an input; \
+                    "the state space is off by {error:.0e} of the response even with {count} residual vectors an input; \
                      more modes come nearer"
                 ));
             }

@@ -22,13 +22,11 @@ pub struct Reduced {
 /// Changes of all outputs by each input, at one ω².
 pub struct Place {
     pub square: f64,
-    /// Whether it stands midway between two modes, so that its size says how large responses are.
-    pub is_midway: bool,
     pub readings: Vec<Vec<f64>>,
 }
 
 /// Where to look: midway between modes, and shortly before the last.
-pub fn places(squares: &[f64]) -> Vec<(f64, bool)> {
+pub fn places(squares: &[f64]) -> Vec<f64> {
     let mut sorted: Vec<f64> = squares.iter().copied().filter(|square| *square > 0.0).collect();
     sorted.sort_by(f64::total_cmp);
     let mut known = vec![0.0];
@@ -37,17 +35,16 @@ pub fn places(squares: &[f64]) -> Vec<(f64, bool)> {
             known.push(square);
         }
     }
-    let mut places: Vec<(f64, bool)> =
-        known.windows(2).map(|pair| (0.5 * (pair[0] + pair[1]), true)).collect();
+    let mut places: Vec<f64> = known.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
     if let [.., before, last] = known[..] {
-        places.push((last - BEFORE * (last - before), false));
+        places.push(last - BEFORE * (last - before));
     }
     places
 }
 
-/// The largest difference of any output to any input, beside its largest response between modes, or the response there where that is
-/// larger; None where nothing answers. Components of a vector are held beside the largest of them: which axes it is read in does not
-/// matter, nor that some of them all but vanish by symmetry.
+/// The largest difference of any output to any input, beside the size of the response at the same ω²: the parts of all coordinates
+/// without their signs, which does not vanish where parts cancel; None where nothing answers. Components of a vector are held beside
+/// the largest of them: which axes it is read in does not matter, nor that some of them all but vanish by symmetry.
 pub fn apart(
     places: &[Place],
     reduced: &Reduced,
@@ -57,9 +54,10 @@ pub fn apart(
 ) -> Option<f64> {
     let mut worst: Option<f64> = None;
     for u in 0..inputs {
-        let largest = |k: usize, weight: &dyn Fn(f64) -> f64| {
-            let midway = places.iter().filter(|place| place.is_midway);
-            midway.map(|place| weight(place.square) * place.readings[u][k].abs()).fold(0.0, f64::max)
+        let largest = |k: usize| places.iter().map(|place| place.readings[u][k].abs()).fold(0.0, f64::max);
+        let parts = |k: usize, square: f64| -> Vec<f64> {
+            let each = reduced.readings.iter().zip(&reduced.shares[u]).zip(squares);
+            each.map(|((reading, share), own)| reading[k] * share / (own - square)).collect()
         };
         let alike = |k: usize| {
             let own = wanted[k].clone();
@@ -67,25 +65,20 @@ pub fn apart(
                 wanted[*other].output == own.output && wanted[*other].measure == own.measure
             })
         };
-        let most = (0..wanted.len()).map(|k| largest(k, &|_| 1.0)).fold(0.0, f64::max);
+        let most = (0..wanted.len()).map(|k| largest(k)).fold(0.0, f64::max);
         for (k, output) in wanted.iter().enumerate() {
-            if alike(k).all(|other| largest(other, &|_| 1.0) <= ROUND * most) {
+            if alike(k).all(|other| largest(other) <= ROUND * most) {
                 continue;
             }
             // What is left of a velocity or an acceleration does not go through: it would take the input's own rates.
-            let (weight, through): (fn(f64) -> f64, f64) = match output.measure {
-                Measure::Change => (|_| 1.0, reduced.feedthrough[u][k]),
-                Measure::Velocity => (f64::sqrt, 0.0),
-                Measure::Acceleration => (|square| square, 0.0),
-            };
-            let size = alike(k).map(|other| largest(other, &weight)).fold(0.0, f64::max);
+            let through = if output.measure == Measure::Change { reduced.feedthrough[u][k] } else { 0.0 };
             for place in places {
-                let modal = reduced.readings.iter().zip(&reduced.shares[u]).zip(squares);
-                let sum: f64 =
-                    modal.map(|((reading, share), own)| reading[k] * share / (own - place.square)).sum();
+                let sum: f64 = parts(k, place.square).iter().sum();
                 let whole = place.readings[u][k];
-                let (factor, whole_size) = (weight(place.square), whole.abs());
-                let off = factor * (through + sum - whole).abs() / size.max(factor * whole_size);
+                let size = alike(k)
+                    .map(|other| parts(other, place.square).iter().map(|part| part.abs()).sum::<f64>())
+                    .fold(whole.abs(), f64::max);
+                let off = (through + sum - whole).abs() / size;
                 worst = Some(worst.map_or(off, |worst| worst.max(off)));
             }
         }
