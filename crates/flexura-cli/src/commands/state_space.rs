@@ -78,7 +78,7 @@ fn tell(space: &StateSpace) {
         .filter(|text| text.starts_with("the state space"))
         .for_each(|text| screen::warn(text));
     if let Some(error) = space.error_estimate {
-        let advice = if error > COARSE { "; more modes come nearer" } else { "" };
+        let advice = if error > COARSE { "; more modes or residual vectors come nearer" } else { "" };
         let added = match space.residual_vectors {
             0 => String::new(),
             1 => " with a residual vector for each input".to_string(),

@@ -65,7 +65,7 @@ pub fn apart(
                 wanted[*other].output == own.output && wanted[*other].measure == own.measure
             })
         };
-        let most = (0..wanted.len()).map(|k| largest(k)).fold(0.0, f64::max);
+        let most = (0..wanted.len()).map(&largest).fold(0.0, f64::max);
         for (k, output) in wanted.iter().enumerate() {
             if alike(k).all(|other| largest(other) <= ROUND * most) {
                 continue;
