@@ -72,13 +72,15 @@ fn rectangle(young: f64, shear: f64, width: f64, height: f64, stretches: bool) -
     ]
 }
 
+/// Forces at places between the ends of a beam.
+type Points<'a> = &'a [(f64, Vector3<f64>)];
+
 /// What a beam is made of and carries.
 struct Course<'a> {
     compliance: &'a dyn Fn(f64) -> [f64; 6],
     /// Force per length.
     load: &'a dyn Fn(f64) -> Vector3<f64>,
-    /// Forces at places between its ends.
-    points: &'a [(f64, Vector3<f64>)],
+    points: Points<'a>,
 }
 
 /// The end of beam `number` that leaves its start as the answer says, and the energy on the way: how far the end is from the answer's,
@@ -140,7 +142,7 @@ fn arrivals() -> Result<Vec<Row>, String> {
         [stretching[0], 0.0, 0.0, 1.0 / (1.520_299_758_5 * BENDING), 1.0 / BENDING, 1.0 / (6400.0 * BENDING)];
     let aim = asking(CAMERA, &[("u0", 2e-3)], &[("pitch", 15f64.to_radians())]);
     let sensor = [(0.5 * L, Vector3::new(0.0, 0.0, -0.05 * GRAVITY))];
-    let cases: [(&str, &str, [f64; 6], &[(f64, Vector3<f64>)]); 7] = [
+    let cases: [(&str, &str, [f64; 6], Points); 7] = [
         ("a corner, with gravity", CORNER, strip, &[]),
         ("the rear over it", REAR, strip, &[]),
         ("both together", TOGETHER, strip, &[]),
@@ -195,7 +197,7 @@ fn portal() -> Result<[Row; 2], String> {
     let axles = [(0.5, axle), (0.7, axle)];
     let (mut worst, mut energy) = (0.0_f64, 0.0);
     for (number, beam) in answer.model.beams.iter().enumerate() {
-        let points: &[(f64, Vector3<f64>)] = if beam.name == "beam" { &axles } else { &[] };
+        let points: Points = if beam.name == "beam" { &axles } else { &[] };
         let course = Course { compliance: &|_| compliance, load: &|_| own, points };
         let [off, stored] = arrives(&answer, number, &course, portal_units())?;
         worst = worst.max(off);
