@@ -28,7 +28,9 @@ const NEAR: f64 = 0.5;
 const REACH: f64 = 0.05;
 /// Contraction that a step must show, and that lets the old derivatives serve on.
 const CONTRACTING: f64 = 0.5;
-const FAST: f64 = 0.01;
+const FAST: f64 = 0.1;
+/// Contraction of the last corrections that lets them serve the next targets, too.
+const VERY_FAST: f64 = 0.01;
 /// Shortest step of the targets, and most of them.
 const SHORTEST: f64 = 1e-5;
 const MOST: usize = 2000;
@@ -42,6 +44,8 @@ const DIFFERENCE: f64 = 1e-4;
 pub(crate) struct Border {
     along: Vec<Vec<f64>>,
     matrix: DMatrix<f64>,
+    /// The last correction over the one before.
+    contraction: f64,
 }
 
 /// How a correction went.
@@ -213,7 +217,12 @@ impl Prepared {
             }
             match self.approach(family, wanted, tolerance) {
                 // On the mesh that has proved its accuracy, the answer moved by less than the accuracy.
-                Corrected::By(moved) if moved <= 10.0 * tolerance => return last,
+                Corrected::By(moved) if moved <= 10.0 * tolerance => {
+                    if self.border.as_ref().is_some_and(|border| border.contraction > VERY_FAST) {
+                        self.border = None;
+                    }
+                    return last;
+                }
                 Corrected::By(_) => {}
                 Corrected::Singular(reason) | Corrected::Failed(reason) => {
                     return Outcome { status: Status::Stalled, reason: Some(reason), ..last };
@@ -249,6 +258,9 @@ impl Prepared {
                     end => return end,
                 };
             let moved = *first.get_or_insert(size);
+            if let Some(border) = &mut self.border {
+                border.contraction = size / before;
+            }
             if size <= 0.1 * tolerance {
                 return Corrected::By(moved);
             }
@@ -331,7 +343,11 @@ impl Prepared {
         let values = self.unknown_values();
         let sizes = self.parameter_sizes(SMALL);
         let count = values.len();
-        let mut border = Border { along: Vec::with_capacity(count), matrix: DMatrix::zeros(count, count) };
+        let mut border = Border {
+            along: Vec::with_capacity(count),
+            matrix: DMatrix::zeros(count, count),
+            contraction: 0.0,
+        };
         let mut kept = Vec::new();
         self.problem.store(&mut kept);
         for (k, ((parameter, value), size)) in values.iter().zip(&sizes).enumerate() {
