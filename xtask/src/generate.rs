@@ -21,6 +21,7 @@ use std::process::Command;
 const PICTURES: &[(&str, &str, &[&str])] = &[
     ("bone_fit", "fit.svg", &["fit", "models/bone_bending.toml"]),
     ("compression_spring", "shape.svg", &["solve", "models/compression_spring.toml", "--set", "push=5 N"]),
+    ("compression_spring_path", "bow/diagram.svg", &["run", "models/compression_spring.toml", "bow"]),
     ("ellipse_on_circle", "roll/shapes.svg", &["run", "models/ellipse_on_circle.toml", "roll"]),
     ("explicit_recipe", "compare/diagram.svg", &["run", "models/explicit_recipe.toml", "compare"]),
     ("four_bar", "shape.svg", &["solve", "models/four_bar.toml"]),
