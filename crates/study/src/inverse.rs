@@ -258,10 +258,17 @@ impl Prepared {
                     end => return end,
                 };
             let moved = *first.get_or_insert(size);
+            let mut rate = 1.0;
             if let Some(border) = &mut self.border {
-                border.contraction = size / before;
+                // What served before to this rate is taken to do so again.
+                let known = if before.is_finite() { size / before } else { border.contraction };
+                if known > 0.0 {
+                    rate = known.clamp(VERY_FAST, 1.0);
+                }
+                border.contraction = known;
             }
-            if size <= 0.1 * tolerance {
+            // What is left is so much less than the correction that was made.
+            if rate * size <= 0.1 * tolerance {
                 return Corrected::By(moved);
             }
             if size > CONTRACTING * before {
