@@ -3,7 +3,7 @@
 use super::Fact;
 use flexura::modelfile::Document;
 use flexura::{Options, fit, formula};
-use flexura_model::StudyKind;
+use flexura_model::{Model, StudyKind};
 use flexura_testkit::slide_law::{Cubic, slides, spread};
 use flexura_testkit::slope::turning_slope;
 use std::f64::consts::PI;
@@ -22,6 +22,12 @@ pub(super) fn facts() -> Result<Vec<Fact>, String> {
     Ok(facts)
 }
 
+/// A bundled model with its studies, which [`crate::file::File`] leaves out.
+fn with_studies(text: &str) -> Result<Model, String> {
+    let model = Document::parse(text, "model.toml").and_then(|document| document.model(&[]));
+    model.map_err(|report| report.render(false))
+}
+
 /// The band of all slopes at a few deflections, the cubic over 39 of them, and that of the model's own study.
 fn cubics(facts: &mut Vec<Fact>) -> Result<(), String> {
     let exact = |middles: &[f64]| slides(WEIGHT, middles, &SLOPES).map_err(|error| format!("{error:?}"));
@@ -35,9 +41,7 @@ fn cubics(facts: &mut Vec<Fact>) -> Result<(), String> {
     facts.push(("size of cubic w^1".into(), cubic.coefficients[0].abs()));
     facts.push(("cubic error".into(), cubic.error(&middles, &rows)));
 
-    let model = Document::parse(STRIP, "strip_on_slope.toml")
-        .and_then(|document| document.model(&[]))
-        .map_err(|report| report.render(false))?;
+    let model = with_studies(STRIP)?;
     let study = model.studies.iter().find_map(|study| match &study.kind {
         StudyKind::Formula(study) => Some(study.clone()),
         _ => None,
@@ -66,9 +70,7 @@ fn turning(facts: &mut Vec<Fact>) -> Result<(), String> {
 
 /// 4.2.1: mean and deviation of Young's modulus over the made-up bones, GPa.
 fn bones(facts: &mut Vec<Fact>) -> Result<(), String> {
-    let model = Document::parse(BONES, "bone_bending.toml")
-        .and_then(|document| document.model(&[]))
-        .map_err(|report| report.render(false))?;
+    let model = with_studies(BONES)?;
     let study = model.studies.iter().find_map(|study| match &study.kind {
         StudyKind::Fit(study) => Some(study.clone()),
         _ => None,
